@@ -283,13 +283,15 @@ Box walls_in_reach(const ContactRule& rule, const BoundAt& bound, const Box& box
 
 }  // namespace
 
-bool recede_for_good(const Bound& a, const Bound& b, double now) {
-  if (!a.is_exact() || !b.is_exact() || a.planned_acceleration != b.planned_acceleration) return false;
-  const State first{a.centre_at(now), a.velocity_at(now)};
-  const State second{b.centre_at(now), b.velocity_at(now)};
+bool recede_for_good(const State& first, const State& second) {
   const Vec3 offset = second.position - first.position;
   const double distance = norm(offset);
   return dot(offset, second.velocity - first.velocity) > approach_error(first, second, distance) * distance;
+}
+
+bool recede_for_good(const Bound& a, const Bound& b, double now) {
+  if (!a.is_exact() || !b.is_exact() || a.planned_acceleration != b.planned_acceleration) return false;
+  return recede_for_good({a.centre_at(now), a.velocity_at(now)}, {b.centre_at(now), b.velocity_at(now)});
 }
 
 Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, double now, double until) {

@@ -116,8 +116,10 @@ class ContactPredictor {
   double excess_growth_;
 };
 
-/// Returns true if exact bounds with the same planned acceleration recede by more than rounding could hide:
-/// then the gap never shrinks again.
+/// Returns true if two spheres recede by more than rounding could hide. If they go on without accelerating
+/// relative to each other, their gap never shrinks again.
+bool recede_for_good(const State& first, const State& second);
+/// Returns that of exact bounds with the same planned acceleration; false for others.
 bool recede_for_good(const Bound& a, const Bound& b, double now);
 
 /// Returns the walls of the box that the body may come within the tolerance of before `until`, as the box

@@ -8,6 +8,7 @@
 #include "bodies/body_bounds.hpp"
 #include "bound/quick_reject.hpp"
 #include "contact/contact_event.hpp"
+#include "contact/contact_predictor.hpp"
 #include "number/infinity.hpp"
 #include "number/powers.hpp"
 
@@ -25,16 +26,6 @@ Periods periods_of(const Space& space) {
   for (int axis = 0; axis < 3; ++axis)
     if (space.repeats(axis)) periods.inverse[axis] = 1.0 / periods.length[axis];
   return periods;
-}
-
-/// Returns true if exact bounds recede by more than rounding could hide, and neither accelerates relative to
-/// the other: then their gap never shrinks again.
-bool recede_for_good(const BoundAt& a, const BoundAt& b) {
-  if (!a.is_exact() || !b.is_exact() || a.acceleration != b.acceleration) return false;
-  const Vec3 offset = b.centre - a.centre;
-  const double distance = norm(offset);
-  const double error = approach_error({a.centre, a.velocity}, {b.centre, b.velocity}, distance);
-  return dot(offset, b.velocity - a.velocity) > error * distance;
 }
 
 }  // namespace
@@ -55,7 +46,7 @@ Core::Core(const WorldDefinition& definition, Reporter& reporter)
 std::uint32_t Core::add(const Bound& bound) {
   std::uint32_t number;
   if (free_.empty()) {
-    number = static_cast<std::uint32_t>(balls_.size());
+    number = balls_.size();
     balls_.append();
   } else {
     std::pop_heap(free_.begin(), free_.end(), std::greater<>());
@@ -258,7 +249,12 @@ double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double h
   if (balls_.periods().any) other.centre = own.centre + balls_.nearest(other.centre - own.centre);
   const QuickReject pair(own, other);
   if (pair.stay_apart(horizon, margin_)) return infinity;
-  if (pair.is_near(tolerance_)) return recede_for_good(own, other) ? infinity : balls_.time();
+  if (pair.is_near(tolerance_)) {
+    const bool straight = own.is_exact() && other.is_exact() && own.acceleration == other.acceleration;
+    const bool parts =
+        straight && recede_for_good({own.centre, own.velocity}, State{other.centre, other.velocity});
+    return parts ? infinity : balls_.time();
+  }
   return std::max(rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_)), balls_.time());
 }
 
@@ -299,44 +295,5 @@ void Core::prefetch() const {
 }
 
 std::size_t Core::bytes() const { return balls_.bytes() + lists_.bytes() + cells_.bytes() + queue_.bytes(); }
-
-const char* Core::audit() {
-  settle_changes();
-  const auto present = [this](std::uint32_t number) { return balls_[number].has_region(); };
-  for (std::uint32_t a = 0; a < balls_.size(); ++a) {
-    if (!present(a)) continue;
-    const Ball& ball = balls_[a];
-    const Bound own = balls_.bound(a);
-    const double left = std::min(ball.own, balls_.time() + 1e6 * std::max(1.0, std::abs(balls_.time())));
-    for (const double time : {balls_.time(), 0.5 * (balls_.time() + left), left})
-      if (norm(own.centre_at(time) - region_centre(ball)) + (own.radius_at(time) - own.radius) >
-          double{ball.region} * unit_)
-        return "H";
-    if (double{ball.region} * unit_ > widest_region(ball) * (1.0 + 0x1p-20)) return "N";
-    if (ball.due > ball.own || ball.second < ball.due) return "D";
-    for (std::uint32_t b = 0; b < a; ++b) {
-      if (!present(b)) continue;
-      const Ball& other = balls_[b];
-      const auto lists = [this](const Ball& one, std::uint32_t number) {
-        const auto list = lists_.at(one.list);
-        return std::binary_search(list.begin(), list.end(), number);
-      };
-      const double regions = (double{ball.region} + double{other.region}) * unit_;
-      const double distance = norm(balls_.nearest(region_centre(ball) - region_centre(other)));
-      const bool listed = lists(ball, b);
-      if (listed != lists(other, a)) return "N";
-      if (distance <= regions + ball.radius + other.radius + tolerance_ && !listed) return "N";
-      // What is due may be about this pair; it is not later than they may touch.
-      const double due = std::min(ball.due, other.due);
-      // Two that are in touch wait for as long as the caller has put them off.
-      if (!(least_gap(a, b) > tolerance_)) continue;
-      Bound image = balls_.bound(b);
-      image.position += balls_.between(a, b) - (balls_.position(b) - balls_.position(a));
-      const double meeting = earliest_meeting(own, image, balls_.time(), due, margin_);
-      if (meeting < due - 0x1p-16 * (due - balls_.time()) - 0x1p-40 * std::abs(due)) return "D";
-    }
-  }
-  return nullptr;
-}
 
 }  // namespace kinesphere::core

@@ -108,7 +108,6 @@ class Core {
   double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const;
   double least_gap(std::uint32_t number, std::uint32_t other) const;
   void probe(std::uint32_t number);
-  bool is_fresh(std::uint32_t number) const;
   void settle_changes();
   void prefetch() const;
 

@@ -78,7 +78,7 @@ DueQueue::Entry DueQueue::first(std::span<const Ball> balls, double until) {
     }
     if (stored_ == 0 && far_.empty()) return nothing;
     if (bucket_of(until) <= bucket_) return nothing;
-    open_next(balls);
+    open_next(balls, until);
   }
 }
 
@@ -100,7 +100,7 @@ void DueQueue::prefetch(std::span<const Ball> balls, std::uint32_t head) const {
     }
 }
 
-void DueQueue::open_next(std::span<const Ball> balls) {
+void DueQueue::open_next(std::span<const Ball> balls, double until) {
   ++bucket_;
   prefetch(balls, heads_[(bucket_ + 1) & (heads_.size() - 1)]);
   std::uint32_t at = std::exchange(heads_[bucket_ & (heads_.size() - 1)], none);
@@ -119,15 +119,16 @@ void DueQueue::open_next(std::span<const Ball> balls) {
     at = chunk.next;
   }
   std::sort(present_.begin(), present_.end(), [](const Entry& a, const Entry& b) { return b < a; });
-  if ((bucket_ & (heads_.size() / 2 - 1)) == 0 || stored_ == 0) take_far(balls);
+  if ((bucket_ & (heads_.size() / 2 - 1)) == 0 || stored_ == 0) take_far(balls, until);
   if (bucket_ - adapted_ >= 256) adapt(balls);
 }
 
 /// Puts the balls that are due within the ring by now into their buckets. If the ring is empty, goes on to
-/// the first bucket in which a ball is due.
-void DueQueue::take_far(std::span<const Ball> balls) {
+/// the first bucket in which a ball is due, but not beyond `until`: balls that come to be due before would
+/// all be of the present bucket.
+void DueQueue::take_far(std::span<const Ball> balls, double until) {
   if (stored_ == 0 && present_.empty()) {
-    std::uint64_t first = static_cast<std::uint64_t>(last_bucket);
+    std::uint64_t first = bucket_of(until) + 1;
     for (const std::uint32_t ball : far_) first = std::min(first, bucket_of(balls[ball].due));
     // The bucket itself is opened next.
     bucket_ = std::max(bucket_, first - 1);
@@ -157,11 +158,12 @@ void DueQueue::adapt(std::span<const Ball> balls) {
   refill(balls, origin_ + static_cast<double>(bucket_) * width_);
 }
 
-/// Chooses the width of buckets from the quarter of the balls that is due first.
+/// Chooses the width of buckets from the quarter of the balls that is due first. Those that are due at once
+/// say nothing of it.
 void DueQueue::choose_width(std::span<const Ball> balls, double now) {
   std::vector<double> times;
   for (const Ball& ball : balls)
-    if (ball.has_region() && ball.due < infinity) times.push_back(ball.due - now);
+    if (ball.has_region() && ball.due > now && ball.due < infinity) times.push_back(ball.due - now);
   width_ = 1.0;
   if (!times.empty()) {
     const std::size_t part = times.size() / 4;

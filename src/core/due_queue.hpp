@@ -65,8 +65,8 @@ class DueQueue {
   void push_unsorted(std::span<const Ball> balls, std::uint32_t ball);
   void put(std::uint64_t bucket, std::uint32_t ball);
   void prefetch(std::span<const Ball> balls, std::uint32_t head) const;
-  void open_next(std::span<const Ball> balls);
-  void take_far(std::span<const Ball> balls);
+  void open_next(std::span<const Ball> balls, double until);
+  void take_far(std::span<const Ball> balls, double until);
   void choose_width(std::span<const Ball> balls, double now);
   void adapt(std::span<const Ball> balls);
 

@@ -8,12 +8,6 @@
 #include "number/infinity.hpp"
 
 namespace kinesphere::core {
-namespace {
-
-int axis_of(Wall wall) { return (static_cast<int>(wall) - 1) / 2; }
-bool is_lower(Wall wall) { return static_cast<int>(wall) % 2 == 1; }
-
-}  // namespace
 
 /// Computes Ball::own; one wall may be left out.
 void Core::compute_own(std::uint32_t number, Wall without) {
@@ -70,17 +64,15 @@ double Core::stays(std::uint32_t number) const {
 
 /// Gap between the ball, at the centre of its bound, and a wall (length).
 double Core::wall_gap(std::uint32_t number, Wall wall) const {
-  const int axis = axis_of(wall);
-  const double at = balls_.position(number)[axis];
-  return (is_lower(wall) ? at - walls_->lower[axis] : walls_->upper[axis] - at) - balls_[number].radius;
+  const HalfSpace inside = half_space(*walls_, wall);
+  return dot(inside.normal, balls_.position(number)) - inside.offset - balls_[number].radius;
 }
 
 /// Returns a time for which the ball does not touch this wall; 0 if reports have to decide.
 double Core::clear_of_wall(std::uint32_t number, Wall wall) const {
-  const double inwards = is_lower(wall) ? 1.0 : -1.0;
-  const double speed = inwards * balls_.velocity(number)[axis_of(wall)] - balls_.growth_speed(number);
-  const double acceleration =
-      inwards * balls_.plan(number)[axis_of(wall)] - balls_[number].acceleration_limit;
+  const Vec3 inwards = half_space(*walls_, wall).normal;
+  const double speed = dot(inwards, balls_.velocity(number)) - balls_.growth_speed(number);
+  const double acceleration = dot(inwards, balls_.plan(number)) - balls_[number].acceleration_limit;
   if (speed >= 0.0 && acceleration >= 0.0) return infinity;
   const double gap = wall_gap(number, wall) - balls_.growth(number);
   return gap > tolerance_ ? rounding::first_crossing(gap - margin_, speed, acceleration) : 0.0;

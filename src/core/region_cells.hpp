@@ -1,10 +1,10 @@
 // RegionCells finds the safe regions within reach of a safe region.
 //
-// A region's `reach` is its radius with the extent of its ball: two balls are neighbours if the centres of
-// their regions are no farther apart than the sum of their reaches. Regions of similar reach, within a factor
-// of four, form a level, which divides space into cells of one width. A cell is a chain of blocks of eight
-// regions. The first blocks of all cells are in one hash table, in which cells that follow each other on x
-// are neighbours.
+// A region's `reach` is its radius with that of its ball and the tolerance: two balls are neighbours if the
+// centres of their regions are no farther apart than the sum of their reaches. Regions of similar reach,
+// within a factor of four, form a level, which divides space into cells of one width. A cell is a chain of
+// blocks of eight regions. The first blocks of all cells are in one hash table, in which cells that follow
+// each other on x are neighbours.
 //
 // Lengths are in region units (Core), and coordinates of centres are single-precision numbers, so that they
 // are exact here. The comparison is to the safe side: reaches are raised by more than its rounding. So the

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bound/rounding.hpp"
 #include "contact/contact_event.hpp"
 #include "core/core.hpp"
 #include "number/infinity.hpp"
@@ -112,11 +111,8 @@ void Core::place_region(std::uint32_t number, double radius) {
   const double extent = double{reach(ball)} * unit_;
   for (const Wall wall : kinesphere::walls) {
     if (!kinesphere::stands(*walls_, wall)) continue;
-    const int axis = (static_cast<int>(wall) - 1) / 2;
-    const double at = region_centre(ball)[axis];
-    const bool is_lower = static_cast<int>(wall) % 2 == 1;
-    if (is_lower ? at - extent < walls_->lower[axis] : at + extent > walls_->upper[axis])
-      ball.walls |= wall_bit(wall);
+    const HalfSpace inside = half_space(*walls_, wall);
+    if (dot(inside.normal, region_centre(ball)) - inside.offset < extent) ball.walls |= wall_bit(wall);
   }
 }
 
@@ -152,11 +148,10 @@ void Core::forget_neighbours(std::uint32_t number) {
 
 /// Gives the changed balls that have no safe region one, and their neighbours.
 void Core::place_arrivals() {
-  found_.clear();
+  std::vector<std::uint32_t> arrivals;
   for (const std::uint32_t number : changed_)
-    if (!balls_[number].has_region()) found_.push_back(number);
-  if (found_.empty()) return;
-  const std::vector<std::uint32_t> arrivals = found_;
+    if (!balls_[number].has_region()) arrivals.push_back(number);
+  if (arrivals.empty()) return;
   const double radius = first_radius();
   for (const std::uint32_t number : arrivals) {
     Ball& ball = balls_[number];
