@@ -6,19 +6,23 @@
 
 namespace kinesphere::core {
 
-const char* Core::audit() {
-  settle_changes();
-  const auto present = [this](std::uint32_t number) { return balls_[number].has_region(); };
+const char* Core::audit(Host& host) const {
+  const auto present = [this](std::uint32_t number) {
+    return balls_[number].is_present() && !balls_[number].is(Ball::arriving);
+  };
   for (std::uint32_t a = 0; a < balls_.size(); ++a) {
     if (!present(a)) continue;
     const Ball& ball = balls_[a];
     const Bound own = balls_.bound(a);
     const double left = std::min(ball.own, balls_.time() + 1e6 * std::max(1.0, std::abs(balls_.time())));
+    // A ball that may have left its safe region is due now.
     for (const double time : {balls_.time(), 0.5 * (balls_.time() + left), left})
-      if (norm(own.centre_at(time) - region_centre(ball)) + (own.radius_at(time) - own.radius) >
-          double{ball.region} * unit_)
+      if (ball.own > balls_.time() &&
+          norm(own.centre_at(time) - region_centre(ball)) + (own.radius_at(time) - own.radius) >
+              double{ball.region} * unit_)
         return "H";
-    if (double{ball.region} * unit_ > widest_region(ball) * (1.0 + 0x1p-20)) return "N";
+    if (!ball.is(Ball::passive) && double{ball.region} * unit_ > widest_region(ball) * (1.0 + 0x1p-20))
+      return "N";
     if (ball.due > ball.own || ball.second < ball.due) return "D";
     for (std::uint32_t b = 0; b < a; ++b) {
       if (!present(b)) continue;
@@ -29,13 +33,18 @@ const char* Core::audit() {
       };
       const double regions = (double{ball.region} + double{other.region}) * unit_;
       const double distance = norm(balls_.nearest(region_centre(ball) - region_centre(other)));
-      const bool listed = lists(ball, b);
-      if (listed != lists(other, a)) return "N";
-      if (distance <= regions + ball.radius + other.radius + tolerance_ && !listed) return "N";
+      const bool near = distance <= regions + ball.radius + other.radius + tolerance_;
+      if (ball.is(Ball::passive) && other.is(Ball::passive)) continue;
+      if (near &&
+          !((ball.is(Ball::passive) || lists(ball, b)) && (other.is(Ball::passive) || lists(other, a))))
+        return "N";
+      if (!host.may_meet(a, b)) continue;
       // What is due may be about this pair; it is not later than they may touch.
       const double due = std::min(ball.due, other.due);
       // Two that are in touch wait for as long as the caller has put them off.
-      if (!(least_gap(a, b) > tolerance_)) continue;
+      const double gap =
+          norm(balls_.between(a, b)) - (ball.radius + other.radius) - balls_.growth(a) - balls_.growth(b);
+      if (!(gap > std::max(tolerance_, link_))) continue;
       Bound image = balls_.bound(b);
       image.position += balls_.between(a, b) - (balls_.position(b) - balls_.position(a));
       const double meeting = earliest_meeting(own, image, balls_.time(), due, margin_);

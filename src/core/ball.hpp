@@ -29,11 +29,22 @@ struct alignas(64) Ball {
   std::uint32_t list = none;   ///< its list of neighbours
   std::uint32_t slot = none;   ///< where its safe region is in the cells; none if it has none
   std::uint8_t walls = 0;      ///< bits of the walls that it may touch while in its safe region
-  std::uint8_t wall = 0;       ///< what `own` is about: a wall, from 1 on; 0 for its safe region
+  std::uint8_t flags = 0;      ///< of those below
   std::uint8_t scans = 0;      ///< times that its list was scanned since it has this safe region
   std::uint8_t scans_by_region = 8;  ///< mean number of scans in its last safe regions, in eighths
 
+  static constexpr std::uint8_t meets_walls = 1;  ///< walls concern it
+  static constexpr std::uint8_t passive = 2;      ///< it never moves, and has no list: others look out for it
+  static constexpr std::uint8_t linked = 4;       ///< it touches or senses something
+  static constexpr std::uint8_t at_wall = 8;      ///< `own` is about a wall
+  static constexpr std::uint8_t arriving = 16;  ///< it has no neighbours yet, and its safe region is a point
+
+  bool is(std::uint8_t flag) const { return (flags & flag) != 0; }
+  void set(std::uint8_t flag, bool on) {
+    flags = static_cast<std::uint8_t>(on ? flags | flag : flags & ~flag);
+  }
   bool has_region() const { return slot != none; }
+  bool is_present() const { return list != none || is(passive); }
 };
 static_assert(sizeof(Ball) == 128);
 

@@ -24,10 +24,11 @@ class Balls {
   Ball& operator[](std::uint32_t number) { return balls_[number]; }
   const Ball& operator[](std::uint32_t number) const { return balls_[number]; }
   const std::vector<Ball>& all() const { return balls_; }
-  /// Adds a record without a bound.
-  void append() {
-    balls_.emplace_back();
-    if (!drifts_.empty()) drifts_.emplace_back();
+  /// Makes room for the balls below this number.
+  void grow(std::uint32_t numbers) {
+    if (numbers <= size()) return;
+    balls_.resize(numbers);
+    if (!drifts_.empty()) drifts_.resize(numbers);
   }
   std::size_t bytes() const { return balls_.capacity() * sizeof(Ball) + drifts_.capacity() * sizeof(Drift); }
 
@@ -36,7 +37,9 @@ class Balls {
   /// True if some bound has ever had one of the terms of Drift.
   bool any_drifts() const { return !drifts_.empty(); }
   void set_bound(std::uint32_t number, const Bound& bound) {
-    set_state(number, {bound.position, bound.velocity});
+    balls_[number].position = bound.position;
+    balls_[number].velocity = bound.velocity;
+    balls_[number].time = bound.time;
     balls_[number].radius = bound.radius;
     balls_[number].acceleration_limit = bound.acceleration_limit;
     grows_ = grows_ || !bound.is_exact();
@@ -98,9 +101,6 @@ class Balls {
     return balls_[number].acceleration_limit == 0.0 &&
            (drifts_.empty() || drifts_[number].growth_speed == 0.0);
   }
-  /// True if a report would tell nothing new.
-  bool is_fresh(std::uint32_t number) const { return balls_[number].time == now_ || is_exact(number); }
-
   Vec3 nearest(Vec3 way) const {
     if (periods_.any)
       for (int axis = 0; axis < 3; ++axis)

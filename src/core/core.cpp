@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <functional>
 
 #include "bodies/body_bounds.hpp"
 #include "bound/quick_reject.hpp"
 #include "contact/contact_event.hpp"
-#include "contact/contact_predictor.hpp"
 #include "number/infinity.hpp"
 #include "number/powers.hpp"
+#include "number/scope_guard.hpp"
 
 namespace kinesphere::core {
 namespace {
@@ -30,145 +29,89 @@ Periods periods_of(const Space& space) {
 
 }  // namespace
 
-Core::Core(const WorldDefinition& definition, Reporter& reporter)
+Core::Core(const WorldDefinition& definition, double link)
     : dimensions_(definition.dimensions),
       walls_(walls_of(definition)),
       unit_(region_unit(definition)),
       margin_(rounding_margin(definition)),
       tolerance_(definition.contact_tolerance),
+      link_(link),
       balls_(periods_of(Space(definition)), definition.start_time),
-      cells_(balls_.periods().length / unit_, definition.dimensions),
-      reporter_(reporter) {
+      cells_(balls_.periods().length / unit_, definition.dimensions) {
   for (int axis = 0; axis < 3; ++axis)
     if (balls_.periods().length[axis] > 0.0) origin_[axis] = definition.box->lower[axis];
 }
 
-std::uint32_t Core::add(const Bound& bound) {
-  std::uint32_t number;
-  if (free_.empty()) {
-    number = balls_.size();
-    balls_.append();
-  } else {
-    std::pop_heap(free_.begin(), free_.end(), std::greater<>());
-    number = free_.back();
-    free_.pop_back();
-    balls_[number] = Ball();
-  }
-  balls_[number].list = lists_.add();
+void Core::enter(std::uint32_t number, const Bound& bound, bool is_passive, bool meets_walls) {
+  balls_.grow(number + 1);
+  Ball& ball = balls_[number] = Ball();
+  ball.due = ball.second = ball.own = infinity;
+  ball.set(Ball::passive, is_passive);
+  ball.set(Ball::meets_walls, meets_walls);
+  ball.set(Ball::arriving, true);
+  if (!is_passive) ball.list = lists_.add();
   balls_.set_bound(number, bound);
-  changed_.push_back(number);
-  return number;
+  place_region(number, 0.0);
+  cells_.enter(balls_, number, reach(ball));
+  ++present_;
 }
 
-void Core::remove(std::uint32_t number) {
+void Core::leave(std::uint32_t number) {
   Ball& ball = balls_[number];
   forget_neighbours(number);
-  lists_.remove(ball.list);
-  if (ball.has_region()) cells_.leave(balls_, number);
+  if (!ball.is(Ball::passive)) lists_.remove(ball.list);
+  cells_.leave(balls_, number);
   ball = Ball();
   ball.due = infinity;
-  std::erase(changed_, number);
-  if (near_ && (near_->first == number || near_->second == number)) {
-    if (near_->first != number) changed_.push_back(near_->first);
-    near_.reset();
-  }
-  free_.push_back(number);
-  std::push_heap(free_.begin(), free_.end(), std::greater<>());
+  --present_;
 }
 
-void Core::replace(std::uint32_t number, const Bound& bound) {
-  if (balls_[number].has_region()) {
-    forget_neighbours(number);
-    cells_.leave(balls_, number);
-  }
+void Core::set_bound(std::uint32_t number, const Bound& bound) {
+  Ball& ball = balls_[number];
+  // A ball that has become larger has so much less room in its safe region.
+  const double larger = bound.radius - ball.radius;
+  if (larger > 0.0) ball.region -= static_cast<float>((1.0 + 0x1p-20) * larger / unit_);
   balls_.set_bound(number, bound);
-  changed_.push_back(number);
 }
 
-void Core::set_velocity(std::uint32_t number, const Vec3& velocity) {
-  balls_.set_state(number, {balls_.position(number), velocity});
-  changed_.push_back(number);
-  if (near_ && near_->first == number) near_.reset();
-}
-
-/// Restores the invariants for balls that have changed.
-void Core::settle_changes() {
-  if (near_) changed_.push_back(near_->first);
-  near_.reset();
-  if (changed_.empty()) return;
-  place_arrivals();
-  for (const std::uint32_t number : changed_) compute_own(number);
-  for (std::size_t k = 0; k < changed_.size(); ++k)
-    if (k == 0 || changed_[k] != changed_[k - 1]) schedule(changed_[k]);
-  changed_.clear();
+void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
+  settling_.assign(changed.begin(), changed.end());
+  place_arrivals(changed, host);
+  for (const std::uint32_t number : changed) compute_own(number, host);
+  for (std::size_t k = 0; k < settling_.size(); ++k) schedule(settling_[k], host);
   if (balls_.size() <= 2 * queued_for_) return;
   queue_.refill(balls_.all(), balls_.time());
   queued_for_ = balls_.size();
 }
 
-std::optional<Near> Core::next(double until) {
-  settle_changes();
-  for (;;) {
-    const DueQueue::Entry first = queue_.first(balls_.all(), until);
-    if (first.ball == none) break;
-    queue_.pop();
-    prefetch();
-    balls_.set_time(std::max(balls_.time(), first.time));
-    ++counters_.due;
-    near_ = handle(first.ball);
-    if (near_) return near_;
-  }
-  balls_.set_time(until);
-  return std::nullopt;
+Result<void> Core::handle_next(Host& host) {
+  const DueQueue::Entry first = queue_.first(balls_.all(), balls_.time());
+  queue_.pop();
+  prefetch();
+  ++counters_.due;
+  ScopeGuard again([&] { queue_.push(balls_.all(), first.ball); });
+  auto handled = handle(first.ball, host);
+  if (handled) again.dismiss();
+  return handled;
 }
 
-std::optional<Near> Core::handle(std::uint32_t number) {
+Result<void> Core::handle(std::uint32_t number, Host& host) {
   const Ball& ball = balls_[number];
   if (ball.about == number) {
-    schedule(number);
+    schedule(number, host);
   } else if (ball.about != none) {
-    return meet(number, ball.about);
-  } else if (ball.wall != 0) {
-    return meet_wall(number);
+    const Result<double> until = host.recheck(number, ball.about);
+    if (!until) return until.error();
+    postpone(number, *until);
+  } else if (ball.is(Ball::at_wall)) {
+    const Result<double> until = host.recheck_walls(number);
+    if (!until) return until.error();
+    compute_own(number, *until);
+    schedule(number, host);
   } else {
-    leave_region(number);
+    return leave_region(number, host);
   }
-  return std::nullopt;
-}
-
-/// Probes two neighbours until it is clear whether they are within the tolerance.
-std::optional<Near> Core::meet(std::uint32_t number, std::uint32_t other) {
-  while (!(least_gap(number, other) > tolerance_)) {
-    const bool first_is_fresh = balls_.is_fresh(number), second_is_fresh = balls_.is_fresh(other);
-    if (first_is_fresh && second_is_fresh) return Near{number, other};
-    const bool first_is_older = balls_[number].time < balls_[other].time;
-    probe(!first_is_fresh && (second_is_fresh || first_is_older) ? number : other);
-  }
-  postpone(number, apart_until(number, other, balls_[number].second - balls_.time()));
-  return std::nullopt;
-}
-
-std::optional<Near> Core::meet_wall(std::uint32_t number) {
-  const auto wall = static_cast<Wall>(balls_[number].wall);
-  while (!(wall_gap(number, wall) - balls_.growth(number) > tolerance_)) {
-    if (balls_.is_fresh(number)) return Near{number, none, wall};
-    probe(number);
-  }
-  compute_own(number);
-  schedule(number);
-  return std::nullopt;
-}
-
-void Core::put_off(const Near& near, double time) {
-  near_.reset();
-  if (near.wall == Wall::none) return postpone(near.first, time);
-  compute_own(near.first, near.wall);
-  Ball& ball = balls_[near.first];
-  if (time < ball.own) {
-    ball.own = time;
-    ball.wall = static_cast<std::uint8_t>(near.wall);
-  }
-  schedule(near.first);
+  return {};
 }
 
 /// Nothing happens between a ball and the neighbour that it is due about before `time`. What is known of the
@@ -184,9 +127,11 @@ void Core::postpone(std::uint32_t number, double time) {
   queue_.push(balls_.all(), number);
 }
 
-/// Computes when a ball is due: at its own time, or when it may touch a neighbour, if that is earlier.
-void Core::schedule(std::uint32_t number) {
+/// Computes when a ball is due: at its own time, or when something may happen between it and a neighbour, if
+/// that is earlier.
+void Core::schedule(std::uint32_t number, Host& host) {
   Ball& ball = balls_[number];
+  if (ball.is(Ball::passive)) return;
   if (ball.scans < 255) ++ball.scans;
   ball.about = none;
   ball.due = ball.second = ball.own;
@@ -198,7 +143,8 @@ void Core::schedule(std::uint32_t number) {
     for (std::uint32_t left = candidates(number, some); left != 0; left &= left - 1) {
       const std::uint32_t other = some[static_cast<std::size_t>(std::countr_zero(left))];
       ++counters_.candidates;
-      consider(ball, other, apart_until(number, other, ball.second - balls_.time()));
+      if (host.may_meet(number, other))
+        consider(ball, other, apart_until(number, other, ball.second - balls_.time(), host));
     }
   }
   queue_.push(balls_.all(), number);
@@ -224,7 +170,7 @@ std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32
                           duration,
                           balls_.position(number),
                           ball.velocity,
-                          ball.radius + balls_.growth(number) + margin_,
+                          ball.radius + balls_.growth(number) + margin_ + link_of(ball),
                           balls_.growth_speed(number),
                           ball.acceleration_limit,
                           balls_.any_grows(),
@@ -236,42 +182,22 @@ std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32
   for (std::size_t k = 0; k < neighbours.size(); ++k) {
     BoundAt other = balls_.bound_now(neighbours[k]);
     other.centre = own.centre + balls_.nearest(other.centre - own.centre);
-    if (!QuickReject(own, other).stay_apart(duration, margin_)) found |= 1u << k;
+    if (!QuickReject(own, other).stay_apart(duration, margin_ + link_of(ball))) found |= 1u << k;
   }
   return found;
 }
 
-/// Returns a time before which two neighbours do not touch; +infinity if they do not for `horizon` from now.
-/// Returns the present time if reports have to decide.
-double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const {
+/// Returns a time before which nothing happens between two neighbours; +infinity if nothing does for
+/// `horizon` from now. Returns the present time if reports have to decide.
+double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon, Host& host) const {
   const BoundAt own = balls_.bound_now(number);
   BoundAt other = balls_.bound_now(neighbour);
   if (balls_.periods().any) other.centre = own.centre + balls_.nearest(other.centre - own.centre);
+  const double link = link_of(balls_[number]);
   const QuickReject pair(own, other);
-  if (pair.stay_apart(horizon, margin_)) return infinity;
-  if (pair.is_near(tolerance_)) {
-    const bool straight = own.is_exact() && other.is_exact() && own.acceleration == other.acceleration;
-    const bool parts =
-        straight && recede_for_good({own.centre, own.velocity}, State{other.centre, other.velocity});
-    return parts ? infinity : balls_.time();
-  }
-  return std::max(rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_)), balls_.time());
-}
-
-double Core::least_gap(std::uint32_t number, std::uint32_t other) const {
-  return norm(balls_.between(number, other)) - (balls_[number].radius + balls_[other].radius) -
-         balls_.growth(number) - balls_.growth(other);
-}
-
-void Core::probe(std::uint32_t number) {
-  ++counters_.probes;
-  State state = reporter_.report(number, balls_.time());
-  if (balls_.periods().any) {
-    // The report may be of any image.
-    const Vec3 expected = balls_.position(number);
-    state.position = expected + balls_.nearest(state.position - expected);
-  }
-  balls_.set_state(number, state);
+  if (pair.stay_apart(horizon, margin_ + link)) return infinity;
+  if (pair.is_near(std::max(tolerance_, link))) return host.unchanged_until(number, neighbour);
+  return std::max(rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_ + link)), balls_.time());
 }
 
 /// Fetches what the balls that are due next need. Some of them may have been removed since they were queued.
@@ -281,14 +207,14 @@ void Core::prefetch() const {
     prefetch_line(&balls_[number].due);
   };
   const auto fetch_list = [this](const Ball& ball) {
-    if (ball.has_region()) prefetch_line(lists_.address(ball.list));
+    if (ball.list != none) prefetch_line(lists_.address(ball.list));
   };
   if (const std::uint32_t later = queue_.coming(1); later != none) {
     fetch_list(balls_[later]);
     if (balls_[later].about != none) fetch(balls_[later].about);
   }
   const std::uint32_t next = queue_.coming(0);
-  if (next == none || !balls_[next].has_region()) return;
+  if (next == none || balls_[next].list == none) return;
   const Ball& ball = balls_[next];
   if (ball.about != none && ball.about != next) return fetch_list(balls_[ball.about]);
   for (const std::uint32_t other : lists_.at(ball.list)) fetch(other);

@@ -16,6 +16,10 @@
 // velocity breaks H and D of that ball: `own` and `due` are computed anew, from its list. A ball that may
 // leave its safe region gets another one, which breaks N, too: one search mends it.
 //
+// A ball of the core is a body with the space around it in which others matter to it: the ball around its
+// shape, and as far as it senses. Where two of these may overlap, or one reaches a wall, the host says what
+// that means: nothing until a certain time, or a contact.
+//
 // Sources: safe regions are those of continuous queries (Prabhakar et al., IEEE Trans. Computers 51, 2002),
 // neighbour lists those of Verlet (Phys. Rev. 159, 1967), and one due time for each body that of Lubachevsky
 // (J. Comp. Phys. 94, 1991). Bounds and their certificates are the paper's.
@@ -29,6 +33,7 @@
 
 #include "core/balls.hpp"
 #include "core/due_queue.hpp"
+#include "core/host.hpp"
 #include "core/neighbour_lists.hpp"
 #include "core/region_cells.hpp"
 #include "kinesphere/event.hpp"
@@ -36,25 +41,7 @@
 
 namespace kinesphere::core {
 
-/// Two balls, or a ball and a wall, that are within the contact tolerance by reports of the present time.
-struct Near {
-  std::uint32_t first;   ///< the one that was due
-  std::uint32_t second;  ///< none for a wall
-  Wall wall = Wall::none;
-};
-
-/// Gives the states of balls to the core.
-class Reporter {
- public:
-  /// Returns the state of a ball at the present time.
-  virtual State report(std::uint32_t ball, double time) = 0;
-
- protected:
-  ~Reporter() = default;
-};
-
 struct CoreCounters {
-  std::uint64_t probes = 0;
   std::uint64_t due = 0;         ///< balls that came to be due
   std::uint64_t regions = 0;     ///< safe regions that were chosen
   std::uint64_t scans = 0;       ///< lists that were scanned
@@ -64,70 +51,84 @@ struct CoreCounters {
 
 class Core {
  public:
-  /// The space, walls, tolerance and start time are those of the definition, which has been checked. The
-  /// reporter must outlive the core.
-  Core(const WorldDefinition& definition, Reporter& reporter);
+  /// The space, walls and start time are those of the definition, which has been checked. Balls that are
+  /// linked concern each other up to the gap `link` (length).
+  Core(const WorldDefinition& definition, double link);
 
   double time() const { return balls_.time(); }
+  /// Advances the clock. Precondition: nothing is due before.
+  void set_time(double time) { balls_.set_time(time); }
   /// Returns the balls by number, and their bounds.
   const Balls& balls() const { return balls_; }
   const CoreCounters& counters() const { return counters_; }
   std::size_t bytes() const;
 
-  /// Adds a ball with this bound, which begins at the present time. Returns its number: the least that is
-  /// free.
-  std::uint32_t add(const Bound& bound);
-  void remove(std::uint32_t number);
-  /// Returns the number that the next ball to be added gets.
-  std::uint32_t lowest_free() const { return free_.empty() ? balls_.size() : free_.front(); }
-  /// Gives a ball another bound, which begins at the present time.
-  void replace(std::uint32_t number, const Bound& bound);
-  /// Gives a ball another velocity from now on. Precondition: its position at present is known, by a report
-  /// or since its bound does not grow.
-  void set_velocity(std::uint32_t number, const Vec3& velocity);
+  bool contains(std::uint32_t number) const { return number < balls_.size() && balls_[number].is_present(); }
+  /// Enters a ball with this bound, the radius of which includes the distance at which it senses others. A
+  /// passive one never moves. It has to be told as changed before anything else.
+  void enter(std::uint32_t number, const Bound& bound, bool is_passive, bool meets_walls);
+  void leave(std::uint32_t number);
+  /// The ball has reported: its bound begins anew, within what was known.
+  void report(std::uint32_t number, const State& state) { balls_.set_state(number, state); }
+  /// The ball has another bound, which may be anywhere. It has to be told as changed.
+  void set_bound(std::uint32_t number, const Bound& bound);
+  /// The ball begins or ceases to touch or sense others. It has to be told as changed.
+  void set_linked(std::uint32_t number, bool is_linked) { balls_[number].set(Ball::linked, is_linked); }
+  /// Restores the invariants, which hold but for these balls: they have arrived, or move in another way, or
+  /// what they are to others has changed. Cost: one scan for each.
+  void settle(std::span<const std::uint32_t> changed, Host& host);
 
-  /// Advances until two may be in touch, at most to `until`. Returns the two; nothing at `until`. The caller
-  /// then gives at least one of the two another velocity or bound, or calls put_off().
-  std::optional<Near> next(double until);
-  /// The caller is certain that what it does about these two can wait until `time`, which is later than now.
-  void put_off(const Near& near, double time);
+  /// Returns when something is due next; infinity if that is later than `until`.
+  double next_due(double until) { return queue_.first(balls_.all(), until).time; }
+  /// Handles what is due now. Precondition: next_due() is now. Errors: those of the reports; it is due again
+  /// then.
+  Result<void> handle_next(Host& host);
+
+  // Queries.
+  /// Returns the numbers of all balls that may be within `radius` of `centre` (lengths), and possibly others,
+  /// in any order.
+  std::vector<std::uint32_t> find(const Vec3& centre, double radius) const;
+  /// Returns the centre (length) and the reach (length) of the safe region of a ball: it is within.
+  Vec3 region_centre(std::uint32_t number) const { return region_centre(balls_[number]); }
+  double region_reach(std::uint32_t number) const { return double{reach(balls_[number])} * unit_; }
+  /// Returns a typical reach of small safe regions (length).
+  double least_reach() const { return cells_.median_reach() * unit_; }
 
   /// Checks the invariants by brute force, as far as bounds tell. Returns the name of the first one that does
   /// not hold, or nullptr. Cost: O(n^2).
-  const char* audit();
+  const char* audit(Host& host) const;
 
  private:
   // core.cpp: the loop.
-  std::optional<Near> handle(std::uint32_t number);
-  std::optional<Near> meet(std::uint32_t number, std::uint32_t other);
-  std::optional<Near> meet_wall(std::uint32_t number);
+  Result<void> handle(std::uint32_t number, Host& host);
   void postpone(std::uint32_t number, double time);
-  void schedule(std::uint32_t number);
+  void schedule(std::uint32_t number, Host& host);
   void consider(Ball& ball, std::uint32_t other, double time);
   std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours) const;
-  double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const;
-  double least_gap(std::uint32_t number, std::uint32_t other) const;
-  void probe(std::uint32_t number);
-  void settle_changes();
+  double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon, Host& host) const;
+  /// How much more than its radius a scan of a ball takes into account (length).
+  double link_of(const Ball& ball) const { return ball.is(Ball::linked) ? link_ : 0.0; }
   void prefetch() const;
 
   // safe_regions.cpp
-  void leave_region(std::uint32_t number);
+  Result<void> leave_region(std::uint32_t number, Host& host);
   void place_region(std::uint32_t number, double radius);
+  void enter_region(std::uint32_t number, double radius, Host& host);
   void find_neighbours(std::uint32_t number);
   void forget_neighbours(std::uint32_t number);
-  void place_arrivals();
-  double first_radius() const;
+  void place_arrivals(std::span<const std::uint32_t> changed, Host& host);
+  void choose_first_radius();
   double next_radius(Ball& ball) const;
   double widest_region(const Ball& ball) const;
   float reach(const Ball& ball) const;
   Vec3 region_centre(const Ball& ball) const;
 
   // own_time.cpp
-  void compute_own(std::uint32_t number, Wall without = Wall::none);
+  void compute_own(std::uint32_t number, Host& host);
+  void compute_own(std::uint32_t number, double walls_until);
   double stays(std::uint32_t number) const;
+  double clear_of_walls(std::uint32_t number, Host& host) const;
   double clear_of_wall(std::uint32_t number, Wall wall) const;
-  double wall_gap(std::uint32_t number, Wall wall) const;
 
   int dimensions_;
   std::optional<Box> walls_;
@@ -135,19 +136,20 @@ class Core {
   double unit_;       ///< one region unit (length), a power of two
   double margin_;     ///< for rounding (length)
   double tolerance_;  ///< contact tolerance (length)
+  double link_;       ///< gap up to which linked balls concern each other (length)
 
   Balls balls_;
   NeighbourLists lists_;
   RegionCells cells_;
   DueQueue queue_;
-  std::vector<std::uint32_t> changed_;  ///< balls for which invariants do not hold, in order of the changes
-  std::vector<std::uint32_t> free_;     ///< numbers without a ball, as a heap
-  std::optional<Near> near_;            ///< what next() has returned and the caller has not dealt with
-  std::size_t queued_for_ = 0;          ///< how many numbers there were when the queue was filled
-  Reporter& reporter_;
+  double first_radius_ = 0.0;   ///< of the first safe region of a ball (length)
+  std::size_t present_ = 0;     ///< how many balls there are
+  std::size_t measured_ = 0;    ///< how many there were when first_radius_ was chosen
+  std::size_t queued_for_ = 0;  ///< how many numbers there were when the queue was filled
   CoreCounters counters_;
   // Members only to reuse their memory.
-  std::vector<std::uint32_t> found_, gone_, new_;
+  RegionSearch search_;
+  std::vector<std::uint32_t> gone_, new_, settling_;
 };
 
 }  // namespace kinesphere::core

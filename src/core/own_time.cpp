@@ -9,19 +9,33 @@
 
 namespace kinesphere::core {
 
-/// Computes Ball::own; one wall may be left out.
-void Core::compute_own(std::uint32_t number, Wall without) {
-  Ball& ball = balls_[number];
-  double time = stays(number);
-  ball.wall = 0;
-  for (const Wall wall : kinesphere::walls) {
-    if ((ball.walls & wall_bit(wall)) == 0 || wall == without) continue;
-    const double clear = clear_of_wall(number, wall);
-    if (!(clear < time)) continue;
-    time = clear;
-    ball.wall = static_cast<std::uint8_t>(wall);
+/// Computes Ball::own.
+void Core::compute_own(std::uint32_t number, Host& host) {
+  compute_own(number, infinity);
+  // The host looks no farther than until then.
+  if (const double until = clear_of_walls(number, host); until < balls_[number].own) {
+    balls_[number].own = until;
+    balls_[number].set(Ball::at_wall, true);
   }
-  ball.own = std::max(rounding::sum_down(balls_.time(), time), balls_.time());
+}
+
+/// Computes Ball::own, given a time before which nothing happens between the ball and the walls.
+void Core::compute_own(std::uint32_t number, double walls_until) {
+  Ball& ball = balls_[number];
+  const double time = std::max(rounding::sum_down(balls_.time(), stays(number)), balls_.time());
+  ball.own = std::min(time, walls_until);
+  ball.set(Ball::at_wall, walls_until < time);
+}
+
+/// Returns a time before which nothing happens between the ball and the walls; now if reports have to decide.
+double Core::clear_of_walls(std::uint32_t number, Host& host) const {
+  const Ball& ball = balls_[number];
+  if (ball.walls == 0) return infinity;
+  double clear = ball.is(Ball::linked) ? 0.0 : infinity;
+  for (const Wall wall : kinesphere::walls)
+    if ((ball.walls & wall_bit(wall)) != 0) clear = std::min(clear, clear_of_wall(number, wall));
+  if (clear == 0.0) return host.walls_unchanged_until(number);
+  return std::max(rounding::sum_down(balls_.time(), clear), balls_.time());
 }
 
 /// Returns a time for which the centre stays in the safe region from now on.
@@ -35,6 +49,7 @@ double Core::stays(std::uint32_t number) const {
   const Vec3 q = balls_.position(number) - region_centre(ball), v = balls_.velocity(number);
   const double rate = balls_.growth_speed(number),
                limit = ball.acceleration_limit + norm_one(balls_.plan(number));
+  if (ball.is(Ball::passive)) return infinity;
   const double room = double{ball.region} * unit_ - margin_ - balls_.growth(number);
   const double qq = norm_squared(q), qv = dot(q, v), vv = norm_squared(v);
   const bool moves = vv > 0.0, grows = rate > 0.0 || limit > 0.0;
@@ -62,19 +77,15 @@ double Core::stays(std::uint32_t number) const {
   return 0.0;
 }
 
-/// Gap between the ball, at the centre of its bound, and a wall (length).
-double Core::wall_gap(std::uint32_t number, Wall wall) const {
-  const HalfSpace inside = half_space(*walls_, wall);
-  return dot(inside.normal, balls_.position(number)) - inside.offset - balls_[number].radius;
-}
-
-/// Returns a time for which the ball does not touch this wall; 0 if reports have to decide.
+/// Returns a time for which the ball does not touch this wall; 0 if it may do so now.
 double Core::clear_of_wall(std::uint32_t number, Wall wall) const {
-  const Vec3 inwards = half_space(*walls_, wall).normal;
+  const HalfSpace inside = half_space(*walls_, wall);
+  const Vec3& inwards = inside.normal;
   const double speed = dot(inwards, balls_.velocity(number)) - balls_.growth_speed(number);
   const double acceleration = dot(inwards, balls_.plan(number)) - balls_[number].acceleration_limit;
-  if (speed >= 0.0 && acceleration >= 0.0) return infinity;
-  const double gap = wall_gap(number, wall) - balls_.growth(number);
+  const double gap =
+      dot(inwards, balls_.position(number)) - inside.offset - balls_[number].radius - balls_.growth(number);
+  if (speed >= 0.0 && acceleration >= 0.0 && gap > 0.0) return infinity;
   return gap > tolerance_ ? rounding::first_crossing(gap - margin_, speed, acceleration) : 0.0;
 }
 

@@ -205,21 +205,21 @@ void RegionCells::insert_all(Balls& balls, const std::vector<Entry>& all) {
   for (const Entry& entry : all) insert(balls, entry.ball, entry.reach);
 }
 
-void RegionCells::search(const Ball& ball, float reach, std::vector<std::uint32_t>& found) {
+void RegionCells::search(const Ball& ball, float reach, RegionSearch& search) const {
   const RegionQuery query{ball.centre[0], ball.centre[1], ball.centre[2], reach * raised};
-  count_ = 0;
+  search.count = 0;
   bool crosses = false;
   for (std::size_t level = 0; level < most_levels; ++level)
-    if (levels_[level].regions > 0) crosses = list_cells(level, query) || crosses;
-  list_blocks();
-  found.resize(count_ * lanes);
-  found.resize(regions_within_reach(blocks_.data(), places_.data(), count_, query,
-                                    crosses ? float_periods_ : FloatPeriods(), found.data()));
+    if (levels_[level].regions > 0) crosses = list_cells(level, query, search) || crosses;
+  list_blocks(search);
+  search.found.resize(search.count * lanes);
+  search.found.resize(regions_within_reach(blocks_.data(), search.places.data(), search.count, query,
+                                           crosses ? float_periods_ : FloatPeriods(), search.found.data()));
 }
 
 /// Appends the blocks of all cells that may have a region within reach. Returns true if some of them may be
 /// within reach in another image only.
-bool RegionCells::list_cells(std::size_t number, const RegionQuery& query) {
+bool RegionCells::list_cells(std::size_t number, const RegionQuery& query, RegionSearch& search) const {
   const Level& level = levels_[number];
   const double far = static_cast<double>(query.reach) + static_cast<double>(level.largest_reach);
   const std::array<Range, 3> ranges{range_on(level, 0, query.x, far), range_on(level, 1, query.y, far),
@@ -227,7 +227,8 @@ bool RegionCells::list_cells(std::size_t number, const RegionQuery& query) {
   const auto& [xs, ys, zs] = ranges;
   const double cells = xs.count() * ys.count() * zs.count();
   const bool takes_all = cells > static_cast<double>(blocks_.size());
-  cells_.resize(std::max(cells_.size(), listed_ + (takes_all ? 0 : static_cast<std::size_t>(cells))));
+  search.cells.resize(
+      std::max(search.cells.size(), search.listed + (takes_all ? 0 : static_cast<std::size_t>(cells))));
   bool crosses = false;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const std::int64_t count = level.count[axis]; count > 0)
@@ -235,7 +236,7 @@ bool RegionCells::list_cells(std::size_t number, const RegionQuery& query) {
                 ranges[axis].count() + 1.0 >= static_cast<double>(count);
   if (takes_all) {
     for (std::uint32_t place = 0; place < blocks_.size(); ++place)
-      if (blocks_[place].count > 0 && blocks_[place].cell >> 60 == number) add_place(place);
+      if (blocks_[place].count > 0 && blocks_[place].cell >> 60 == number) search.add_place(place);
     return crosses;
   }
   for (std::int64_t z = zs.first; z <= zs.last; ++z)
@@ -250,22 +251,17 @@ bool RegionCells::list_cells(std::size_t number, const RegionQuery& query) {
         prefetch_line(block + 128);
         prefetch_line(block);
         prefetch_line(block + 64);
-        cells_[listed_++] = {name | static_cast<std::uint64_t>(in_x & ((1 << 20) - 1)), head};
+        search.cells[search.listed++] = {name | static_cast<std::uint64_t>(in_x & ((1 << 20) - 1)), head};
       }
     }
   return crosses;
 }
 
-void RegionCells::add_place(std::uint32_t place) {
-  if (count_ == places_.size()) places_.resize(2 * count_ + 64);
-  places_[count_++] = place;
-}
-
-void RegionCells::list_blocks() {
-  for (std::size_t k = 0; k < listed_; ++k)
-    for (std::uint32_t place = cells_[k].head; place != none; place = blocks_[place].next)
-      if (blocks_[place].cell == cells_[k].name && blocks_[place].count > 0) add_place(place);
-  listed_ = 0;
+void RegionCells::list_blocks(RegionSearch& search) const {
+  for (std::size_t k = 0; k < search.listed; ++k)
+    for (std::uint32_t place = search.cells[k].head; place != none; place = blocks_[place].next)
+      if (blocks_[place].cell == search.cells[k].name && blocks_[place].count > 0) search.add_place(place);
+  search.listed = 0;
 }
 
 }  // namespace kinesphere::core

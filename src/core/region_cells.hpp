@@ -21,6 +21,23 @@
 
 namespace kinesphere::core {
 
+/// The memory of a search, to reuse, and what it has found.
+struct RegionSearch {
+  struct Cell {
+    std::uint64_t name;
+    std::uint32_t head;
+  };
+  std::vector<Cell> cells;            ///< to search, of which there are `listed`
+  std::vector<std::uint32_t> places;  ///< of blocks to search, of which there are `count`
+  std::size_t listed = 0, count = 0;
+  std::vector<std::uint32_t> found;  ///< balls, in any order
+
+  void add_place(std::uint32_t place) {
+    if (count == places.size()) places.resize(2 * count + 64);
+    places[count++] = place;
+  }
+};
+
 class RegionCells {
  public:
   /// `period`: of the space, in region units; 0 on axes that do not repeat. `dimensions`: 2 or 3.
@@ -29,11 +46,13 @@ class RegionCells {
   /// Enters the safe region of a ball, and sets its slot. `reach` > 0.
   void enter(Balls& balls, std::uint32_t ball, float reach);
   void leave(Balls& balls, std::uint32_t ball);
-  /// Writes to `found` the numbers of all balls whose regions come within reach of this one, in any order.
-  void search(const Ball& ball, float reach, std::vector<std::uint32_t>& found);
+  /// Finds all balls whose regions come within reach of that of `ball`.
+  void search(const Ball& ball, float reach, RegionSearch& search) const;
   /// Chooses levels and the widths of cells anew, for the regions that there are. All slots change. Cost:
   /// O(n). Regions that enter do so by themselves, every now and then.
   void rebuild(Balls& balls);
+  /// Returns the median reach of the regions when levels were chosen (region units).
+  double median_reach() const { return double{median_}; }
   std::size_t bytes() const { return blocks_.capacity() * sizeof(RegionBlock); }
 
  private:
@@ -53,10 +72,6 @@ class RegionCells {
     std::int64_t first, last;
     double count() const { return static_cast<double>(last - first) + 1.0; }
   };
-  struct Cell {
-    std::uint64_t name;
-    std::uint32_t head;
-  };
   struct Entry {
     std::uint32_t ball;
     float reach;
@@ -67,9 +82,8 @@ class RegionCells {
   std::int64_t cell_on(const Level& level, int axis, double x) const;
   Range range_on(const Level& level, int axis, double x, double reach) const;
   void insert(Balls& balls, std::uint32_t ball, float reach);
-  bool list_cells(std::size_t number, const RegionQuery& query);
-  void list_blocks();
-  void add_place(std::uint32_t place);
+  bool list_cells(std::size_t number, const RegionQuery& query, RegionSearch& search) const;
+  void list_blocks(RegionSearch& search) const;
   std::vector<Entry> entries() const;
   double crowding(std::size_t level) const;
   double wanted_width(std::size_t number, double narrowest) const;
@@ -83,10 +97,6 @@ class RegionCells {
   std::uint32_t mask_;               ///< length of the hash table, less 1
   std::size_t regions_ = 0, entered_ = 0;
   float median_ = 0.0F;  ///< reach, when levels were chosen
-  // Cells and blocks to search; members only to reuse their memory.
-  std::vector<Cell> cells_;
-  std::vector<std::uint32_t> places_;
-  std::size_t listed_ = 0, count_ = 0;
 };
 
 }  // namespace kinesphere::core

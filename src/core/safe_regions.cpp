@@ -1,6 +1,7 @@
 // Safe regions: how large, where, and who their neighbours are.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "contact/contact_event.hpp"
 #include "core/core.hpp"
@@ -17,8 +18,9 @@ constexpr double ahead = 0.6;
 constexpr double growth_worth_a_report = 0.25;
 /// It keeps its safe region if it stays in it for this part of the time since its last report.
 constexpr double stay_worth_keeping = 0.0625;
-/// A ball in exact flight goes on from where it is after this many radii of a safe region.
-constexpr double longest_flight = 0x1p12;
+/// A ball in exact flight reports after this many radii of a safe region: the way from an old report loses
+/// digits, and it may have turned, which nothing else would reveal.
+constexpr double longest_flight = 64.0;
 
 // What it costs to choose a safe region, beside what each neighbour adds then, and what a scan costs for each
 // neighbour. Only their ratios matter. They are instructions, as measured.
@@ -35,7 +37,8 @@ Vec3 Core::region_centre(const Ball& ball) const {
 /// Returns the reach of a ball's safe region (region units), raised for rounding and for the error that
 /// images in a periodic box have in single precision.
 float Core::reach(const Ball& ball) const {
-  const double lengths = ball.radius + tolerance_ + 0x1p-21 * norm_one(balls_.periods().length);
+  const double lengths =
+      ball.radius + std::max(tolerance_, link_) + 0x1p-21 * norm_one(balls_.periods().length);
   return static_cast<float>((double{ball.region} + lengths / unit_) * (1.0 + 0x1p-20));
 }
 
@@ -45,25 +48,28 @@ double Core::widest_region(const Ball& ball) const {
   double widest = infinity;
   for (int axis = 0; axis < 3; ++axis)
     if (balls_.periods().length[axis] > 0.0)
-      widest = std::min(widest, 0.49 * (0.25 * balls_.periods().length[axis] - ball.radius - tolerance_));
+      widest = std::min(
+          widest, 0.49 * (0.25 * balls_.periods().length[axis] - ball.radius - std::max(tolerance_, link_)));
   return widest;
 }
 
 /// A ball may leave its safe region: it reports if that helps, and gets another one.
-void Core::leave_region(std::uint32_t number) {
+Result<void> Core::leave_region(std::uint32_t number, Host& host) {
   Ball& ball = balls_[number];
   // The bound may be tighter than when `own` was computed.
-  if (stays(number) > stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time())) {
-    compute_own(number);
-  } else {
-    if (balls_.growth(number) > growth_worth_a_report * double{ball.region} * unit_) probe(number);
+  if (stays(number) <= stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time())) {
+    const double radius = double{ball.region} * unit_;
+    const bool is_wide = balls_.growth(number) > growth_worth_a_report * radius;
+    const bool is_far = norm_one(ball.velocity) * (balls_.time() - ball.time) > longest_flight * radius;
+    if (is_wide || is_far)
+      if (auto refreshed = host.refresh(number); !refreshed) return refreshed;
     cells_.leave(balls_, number);
-    place_region(number, next_radius(ball));
-    cells_.enter(balls_, number, reach(ball));
+    enter_region(number, next_radius(ball), host);
     find_neighbours(number);
-    compute_own(number);
   }
-  schedule(number);
+  compute_own(number, host);
+  schedule(number, host);
+  return {};
 }
 
 /// Returns the radius of the next safe region (length). A wider one lasts longer, but has more neighbours.
@@ -88,9 +94,6 @@ void Core::place_region(std::uint32_t number, double radius) {
   ++counters_.regions;
   const Vec3 motion = balls_.velocity(number);
   const double speed = norm(motion), growth = balls_.growth(number);
-  // The way from an old report loses digits, so a ball that is in exact flight for long begins anew.
-  if (growth == 0.0 && speed * (balls_.time() - ball.time) > longest_flight * radius)
-    balls_.set_state(number, {balls_.position(number), motion});
   Vec3 centre = balls_.position(number);
   // Single precision tells so much apart here. A ball that stands still needs no more.
   const double resolved = 0x1p-20 * (norm_one(centre - origin_) + ball.radius) + tolerance_;
@@ -107,7 +110,7 @@ void Core::place_region(std::uint32_t number, double radius) {
   for (int axis = 0; axis < 3; ++axis)
     ball.centre[axis] = static_cast<float>((centre[axis] - origin_[axis]) / unit_);
   ball.walls = 0;
-  if (!walls_) return;
+  if (!walls_ || !ball.is(Ball::meets_walls)) return;
   const double extent = double{reach(ball)} * unit_;
   for (const Wall wall : kinesphere::walls) {
     if (!kinesphere::stands(*walls_, wall)) continue;
@@ -116,56 +119,88 @@ void Core::place_region(std::uint32_t number, double radius) {
   }
 }
 
+void Core::enter_region(std::uint32_t number, double radius, Host& host) {
+  place_region(number, radius);
+  cells_.enter(balls_, number, reach(balls_[number]));
+  if (balls_.periods().any) host.note_image(number, region_centre(balls_[number]));
+}
+
 /// Makes those within reach the neighbours of the ball, and it theirs; others are no longer.
 void Core::find_neighbours(std::uint32_t number) {
-  cells_.search(balls_[number], reach(balls_[number]), found_);
-  std::sort(found_.begin(), found_.end());
+  cells_.search(balls_[number], reach(balls_[number]), search_);
+  std::vector<std::uint32_t>& found = search_.found;
+  if (balls_[number].is(Ball::passive)) {
+    for (const std::uint32_t other : found) {
+      if (balls_[other].is(Ball::passive) || balls_[other].is(Ball::arriving)) continue;
+      lists_.insert(balls_[other].list, number);
+      settling_.push_back(other);
+    }
+    return;
+  }
+  std::sort(found.begin(), found.end());
   const auto former = lists_.at(balls_[number].list);
   gone_.clear();
   new_.clear();
   auto next = former.begin();
   std::size_t count = 0;
-  for (const std::uint32_t other : found_) {
-    if (other == number) continue;
-    found_[count++] = other;
+  for (const std::uint32_t other : found) {
+    if (other == number || balls_[other].is(Ball::arriving)) continue;
+    found[count++] = other;
     while (next != former.end() && *next < other) gone_.push_back(*next++);
     if (next != former.end() && *next == other)
       ++next;
     else
       new_.push_back(other);
   }
-  found_.resize(count);
+  found.resize(count);
   gone_.insert(gone_.end(), next, former.end());
-  for (const std::uint32_t other : gone_) lists_.erase(balls_[other].list, number);
-  for (const std::uint32_t other : new_) lists_.insert(balls_[other].list, number);
-  lists_.assign(balls_[number].list, found_);
+  for (const std::uint32_t other : gone_)
+    if (!balls_[other].is(Ball::passive)) lists_.erase(balls_[other].list, number);
+  for (const std::uint32_t other : new_)
+    if (!balls_[other].is(Ball::passive)) lists_.insert(balls_[other].list, number);
+  lists_.assign(balls_[number].list, found);
 }
 
 void Core::forget_neighbours(std::uint32_t number) {
-  for (const std::uint32_t other : lists_.at(balls_[number].list)) lists_.erase(balls_[other].list, number);
+  const Ball& ball = balls_[number];
+  if (ball.is(Ball::arriving)) return;
+  if (ball.is(Ball::passive)) {
+    cells_.search(ball, reach(ball), search_);
+    for (const std::uint32_t other : search_.found)
+      if (!balls_[other].is(Ball::passive) && !balls_[other].is(Ball::arriving))
+        lists_.erase(balls_[other].list, number);
+    return;
+  }
+  for (const std::uint32_t other : lists_.at(ball.list))
+    if (!balls_[other].is(Ball::passive)) lists_.erase(balls_[other].list, number);
   lists_.assign(balls_[number].list, {});
 }
 
-/// Gives the changed balls that have no safe region one, and their neighbours.
-void Core::place_arrivals() {
+/// Gives those of the changed balls that have arrived their first safe regions and their neighbours.
+void Core::place_arrivals(std::span<const std::uint32_t> changed, Host& host) {
   std::vector<std::uint32_t> arrivals;
-  for (const std::uint32_t number : changed_)
-    if (!balls_[number].has_region()) arrivals.push_back(number);
+  for (const std::uint32_t number : changed)
+    if (balls_[number].is(Ball::arriving)) arrivals.push_back(number);
   if (arrivals.empty()) return;
-  const double radius = first_radius();
+  choose_first_radius();
   for (const std::uint32_t number : arrivals) {
-    Ball& ball = balls_[number];
-    if (ball.has_region()) continue;  // it was listed twice
-    place_region(number, radius);
-    cells_.enter(balls_, number, reach(ball));
+    cells_.leave(balls_, number);
+    enter_region(number, first_radius_, host);
   }
-  if (2 * arrivals.size() > balls_.size()) cells_.rebuild(balls_);
-  for (const std::uint32_t number : arrivals) find_neighbours(number);
+  if (2 * arrivals.size() > present_) cells_.rebuild(balls_);
+  for (const std::uint32_t number : arrivals) {
+    balls_[number].set(Ball::arriving, false);
+    find_neighbours(number);
+  }
+  std::sort(settling_.begin(), settling_.end());
+  settling_.erase(std::unique(settling_.begin(), settling_.end()), settling_.end());
 }
 
-/// Returns the radius of the first safe region of a ball (length): about a third of the mean distance of all
-/// balls, in as many dimensions as they fill.
-double Core::first_radius() const {
+/// Chooses the radius of the first safe region of a ball (length): about a third of the mean distance of all
+/// balls that may move, in as many dimensions as they fill. It is chosen anew when there are twice as many.
+void Core::choose_first_radius() {
+  if (measured_ <= present_ && present_ < 2 * measured_) return;
+  measured_ = present_;
   Vec3 lower{infinity, infinity, infinity}, upper = lower * -1.0;
   double count = 0.0;
   for (const Ball& ball : balls_.all()) {
@@ -176,13 +211,30 @@ double Core::first_radius() const {
       upper[axis] = std::max(upper[axis], ball.position[axis]);
     }
   }
+  first_radius_ = tolerance_;
+  if (count == 0.0) return;
   double edges[3] = {upper.x - lower.x, upper.y - lower.y, upper.z - lower.z};
   std::sort(std::begin(edges), std::end(edges));
   const double volume = edges[0] * edges[1] * edges[2];
   double distance = volume > 0.0 ? cube_root(volume / count) : 0.0;
   if (!(edges[0] > distance)) distance = std::sqrt(edges[1] * edges[2] / count);
   if (!(edges[1] > distance)) distance = edges[2] / count;
-  return 0.35 * distance + tolerance_;
+  first_radius_ += 0.35 * distance;
+}
+
+/// Finds balls by their safe regions.
+std::vector<std::uint32_t> Core::find(const Vec3& centre, double radius) const {
+  Vec3 place = centre - origin_;
+  for (int axis = 0; axis < 3; ++axis)
+    if (const double period = balls_.periods().length[axis]; period > 0.0)
+      place[axis] -= std::floor(place[axis] * balls_.periods().inverse[axis]) * period;
+  const double resolved = 0x1p-20 * (norm_one(place) + radius) + tolerance_;
+  Ball at;
+  for (int axis = 0; axis < 3; ++axis) at.centre[axis] = static_cast<float>(place[axis] / unit_);
+  at.region = static_cast<float>((radius + resolved) / unit_);
+  RegionSearch search;
+  cells_.search(at, reach(at), search);
+  return std::move(search.found);
 }
 
 }  // namespace kinesphere::core

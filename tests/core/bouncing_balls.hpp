@@ -5,10 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+
+#include "contact/contact_event.hpp"
+#include "contact/contact_predictor.hpp"
 #include "core/core.hpp"
+#include "kinesphere/certificates.hpp"
 #include "kinesphere/random.hpp"
 
 namespace kinesphere::core_test {
@@ -82,20 +91,47 @@ inline void bounce_off(Vec3& first, Vec3& second, double mass, double other, con
   second += normal * (push * mass);
 }
 
-class BouncingBalls final : core::Reporter {
+class BouncingBalls final : core::Host {
  public:
   BouncingBalls(const WorldDefinition& definition, TrueMotion motion)
-      : truth(std::move(motion)), definition_(definition), core_(definition, *this) {
-    for (std::uint32_t k = 0; k < truth.balls.size(); ++k) core_.add(bound(k));
+      : truth(std::move(motion)), definition_(definition), core_(definition, 0.0) {
+    for (std::uint32_t k = 0; k < truth.balls.size(); ++k) enter(k);
   }
 
-  core::Core& core() { return core_; }
+  const core::Core& core() const { return core_; }
   TrueMotion truth;
   std::vector<Bounce> bounces;
+  std::uint64_t probes = 0;
 
   /// Plays until then. Every approach within the tolerance is a bounce.
   void play(double until) {
-    while (const auto near = core_.next(until)) answer(*near);
+    for (;;) {
+      settle();
+      const double next = core_.next_due(until);
+      if (!(next <= until)) break;
+      core_.set_time(std::max(next, core_.time()));
+      EXPECT_TRUE(core_.handle_next(*this));
+    }
+    core_.set_time(until);
+  }
+  const char* audit() {
+    settle();
+    return core_.audit(*this);
+  }
+  void enter(std::uint32_t number) {
+    truth.balls[number].present = true;
+    core_.enter(number, bound(number), false, true);
+    note_change(number);
+  }
+  void leave(std::uint32_t number) {
+    truth.balls[number].present = false;
+    core_.leave(number);
+    changed_.erase(number);
+  }
+  /// The true ball has been put elsewhere.
+  void move(std::uint32_t number) {
+    core_.set_bound(number, bound(number));
+    note_change(number);
   }
   /// True gap of two balls at the present (length).
   double gap(std::uint32_t a, std::uint32_t b) const {
@@ -137,7 +173,7 @@ class BouncingBalls final : core::Reporter {
 
  private:
   /// Reports lie anywhere within their errors.
-  State report(std::uint32_t number, double time) override {
+  State report_of(std::uint32_t number, double time) const {
     State state = truth.at(number, time);
     const TrueBall& ball = truth.balls[number];
     Random random(static_cast<std::uint64_t>(time * 1e9) + number);
@@ -146,6 +182,74 @@ class BouncingBalls final : core::Reporter {
     if (ball.velocity_error > 0.0) state.velocity += error(ball.velocity_error);
     if (ball.stays_flat) state.position.z = state.velocity.z = 0.0;
     return state;
+  }
+  void settle() {
+    if (changed_.empty()) return;
+    const std::vector<std::uint32_t> changed(changed_.begin(), changed_.end());
+    changed_.clear();
+    core_.settle(changed, *this);
+  }
+  void note_change(std::uint32_t number) {
+    changed_.insert(number);
+    for (auto pair = put_off_.begin(); pair != put_off_.end();) {
+      const bool concerns = pair->first.first == number || pair->first.second == number;
+      pair = concerns ? put_off_.erase(pair) : std::next(pair);
+    }
+  }
+
+  // What the core asks. Walls count as a partner, core::none.
+  bool may_meet(std::uint32_t, std::uint32_t) override { return true; }
+  double unchanged_until(std::uint32_t a, std::uint32_t b) override {
+    if (const auto known = put_off_.find(std::minmax(a, b)); known != put_off_.end())
+      if (known->second > core_.time()) return known->second;
+    const auto& balls = core_.balls();
+    const bool parts =
+        b != core::none && balls.is_exact(a) && balls.is_exact(b) && balls.plan(a) == balls.plan(b) &&
+        recede_for_good(State{{}, balls.velocity(a)}, State{balls.between(a, b), balls.velocity(b)});
+    return parts ? std::numeric_limits<double>::infinity() : core_.time();
+  }
+  Result<double> recheck(std::uint32_t a, std::uint32_t b) override {
+    for (;;) {
+      const double least = norm(core_.balls().between(a, b)) - core_.balls()[a].radius -
+                           core_.balls()[b].radius - core_.balls().growth(a) - core_.balls().growth(b);
+      if (least > definition_.contact_tolerance) {
+        Bound image = core_.balls().bound(b);
+        image.position = core_.balls().bound(a).centre_at(core_.time()) + core_.balls().between(a, b) -
+                         (image.centre_at(core_.time()) - image.position);
+        return earliest_meeting(core_.balls().bound(a), image, core_.time(), 1e9,
+                                0.1 * definition_.contact_tolerance);
+      }
+      if (is_fresh(a) && is_fresh(b)) return put_off(a, b, answer(a, b));
+      probe(!is_fresh(a) && (is_fresh(b) || core_.balls()[a].time < core_.balls()[b].time) ? a : b);
+    }
+  }
+  double walls_unchanged_until(std::uint32_t ball) override { return unchanged_until(ball, core::none); }
+  Result<double> recheck_walls(std::uint32_t ball) override {
+    if (!is_fresh(ball)) probe(ball);
+    double until = std::numeric_limits<double>::infinity();
+    for (const Wall wall : walls)
+      if (stands(*walls_of(definition_), wall)) until = std::min(until, answer_wall(ball, wall));
+    return put_off(ball, core::none, until);
+  }
+  Result<void> refresh(std::uint32_t ball) override {
+    probe(ball);
+    return {};
+  }
+  void note_image(std::uint32_t, const Vec3&) override {}
+
+  double put_off(std::uint32_t a, std::uint32_t b, double until) {
+    if (until < std::numeric_limits<double>::infinity()) put_off_[std::minmax(a, b)] = until;
+    return until;
+  }
+  bool is_fresh(std::uint32_t number) const {
+    return core_.balls()[number].time == core_.time() || core_.balls().is_exact(number);
+  }
+  void probe(std::uint32_t number) {
+    ++probes;
+    State state = report_of(number, core_.time());
+    const Vec3 expected = core_.balls().position(number);
+    state.position = expected + core_.balls().nearest(state.position - expected);
+    core_.report(number, state);
   }
 
   /// From the true centre of one ball to that of the nearest image of the other.
@@ -166,56 +270,70 @@ class BouncingBalls final : core::Reporter {
     return root + speed_error > 0.0 ? 2.0 * sinking / (root + speed_error) : 1e3;
   }
 
+  /// From now on the ball moves so. Its next report lies anywhere within its errors.
   void turn(std::uint32_t number, const Vec3& velocity) {
     truth.set_velocity(number, core_.time(), velocity);
-    if (truth.balls[number].position_error > 0.0 || truth.balls[number].velocity_error > 0.0) {
-      // The core knows no state to go on from: it gets another bound.
-      Bound changed = bound(number);
-      const State now = report(number, core_.time());
-      changed.position = now.position;
-      changed.velocity = now.velocity;
-      core_.replace(number, changed);
-    } else {
-      core_.set_velocity(number, velocity);
-    }
+    Bound changed = bound(number);
+    const State now = report_of(number, core_.time());
+    const Vec3 expected = core_.balls().position(number);
+    changed.position = expected + core_.balls().nearest(now.position - expected);
+    changed.velocity = now.velocity;
+    core_.set_bound(number, changed);
+    note_change(number);
   }
 
-  void answer(const core::Near& near) {
-    const TrueBall& first = truth.balls[near.first];
+  /// Lets the ball bounce off a wall that it touches and approaches. Returns when to look again.
+  double answer_wall(std::uint32_t number, Wall wall) {
+    const TrueBall& ball = truth.balls[number];
     const double now = core_.time();
-    Vec3 velocity = truth.at(near.first, now).velocity;
-    if (near.wall != Wall::none) {
-      const int wall = static_cast<int>(near.wall) - 1, axis = wall / 2;
-      const double approach = wall % 2 == 1 ? velocity[axis] : -velocity[axis];
-      const double acceleration = first.acceleration_limit + norm(first.planned_acceleration);
-      if (!(approach > 0.0))
-        return core_.put_off(near, now + least_wait(acceleration, first.velocity_error - approach));
-      const double at = truth.at(near.first, now).position[axis];
-      const double face =
-          wall % 2 == 1 ? definition_.box->upper[axis] - at : at - definition_.box->lower[axis];
-      bounces.push_back({now, near.first, core::none, near.wall, face - first.radius});
-      velocity[axis] = -velocity[axis];
-      return turn(near.first, velocity);
+    const int index = static_cast<int>(wall) - 1, axis = index / 2;
+    const State state = truth.at(number, now);
+    const double at = state.position[axis];
+    const double face =
+        index % 2 == 1 ? definition_.box->upper[axis] - at : at - definition_.box->lower[axis];
+    const double approach = index % 2 == 1 ? state.velocity[axis] : -state.velocity[axis];
+    const double gap = face - ball.radius,
+                 acceleration = ball.acceleration_limit + norm(ball.planned_acceleration);
+    const double error = ball.position_error + definition_.contact_tolerance;
+    if (gap > error) {
+      const double speed = std::max(approach, 0.0) + ball.velocity_error;
+      const double room = gap - 0.9 * error;
+      return now + 2.0 * room / (speed + std::sqrt(speed * speed + 2.0 * acceleration * room) + 1e-9);
     }
-    const TrueBall& second = truth.balls[near.second];
-    Vec3 other = truth.at(near.second, now).velocity;
-    const Vec3 offset = way(near.first, near.second), normal = offset / norm(offset);
+    if (!(approach > 0.0))
+      return now + least_wait(acceleration, std::max(ball.velocity_error - approach, 0.0));
+    bounces.push_back({now, number, core::none, wall, gap});
+    Vec3 velocity = state.velocity;
+    velocity[axis] = -velocity[axis];
+    turn(number, velocity);
+    return std::numeric_limits<double>::infinity();
+  }
+
+  /// Lets two balls that touch and approach bounce. Returns when to look again.
+  double answer(std::uint32_t a, std::uint32_t b) {
+    const TrueBall& first = truth.balls[a];
+    const TrueBall& second = truth.balls[b];
+    const double now = core_.time();
+    Vec3 velocity = truth.at(a, now).velocity, other = truth.at(b, now).velocity;
+    const Vec3 offset = way(a, b), normal = offset / norm(offset);
     const double approach = dot(velocity - other, normal);
     if (!(approach > 0.0)) {
       const double acceleration = first.acceleration_limit + second.acceleration_limit +
                                   norm(first.planned_acceleration) + norm(second.planned_acceleration);
-      const double error = first.velocity_error + second.velocity_error;
-      return core_.put_off(near, now + least_wait(acceleration, error));
+      return now + least_wait(acceleration, first.velocity_error + second.velocity_error);
     }
-    bounces.push_back({now, std::min(near.first, near.second), std::max(near.first, near.second), Wall::none,
-                       gap(near.first, near.second)});
+    bounces.push_back({now, std::min(a, b), std::max(a, b), Wall::none, gap(a, b)});
     bounce_off(velocity, other, first.mass, second.mass, normal);
-    turn(near.first, velocity);
-    turn(near.second, other);
+    turn(a, velocity);
+    turn(b, other);
+    return std::numeric_limits<double>::infinity();
   }
 
   WorldDefinition definition_;
   core::Core core_;
+  std::set<std::uint32_t> changed_;
+  /// Pairs that are in touch, and until when nothing happens between the two.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> put_off_;
 };
 
 /// Balls at random places of a box, apart from each other.

@@ -147,17 +147,18 @@ TEST(RegionCells, FindAllWithinReach) {
     };
     constexpr std::uint32_t count = 400;
     for (std::uint32_t number = 0; number < count; ++number) {
-      balls.append();
+      balls.grow(number + 1);
       reaches.push_back(0.0F);
       place(number);
     }
-    std::vector<std::uint32_t> found;
+    core::RegionSearch search;
     for (int step = 0; step < 2000; ++step) {
       const auto number = static_cast<std::uint32_t>(random.bits() % count);
       cells.leave(balls, number);
       place(number);
       if (step % 100 == 0) cells.rebuild(balls);
-      cells.search(balls[number], reaches[number], found);
+      cells.search(balls[number], reaches[number], search);
+      std::vector<std::uint32_t>& found = search.found;
       std::sort(found.begin(), found.end());
       ASSERT_TRUE(std::adjacent_find(found.begin(), found.end()) == found.end()) << "step " << step;
       for (std::uint32_t other = 0; other < count; ++other) {
@@ -203,7 +204,7 @@ TEST(NearLanes, RejectWhatQuickRejectRejects) {
             return Vec3{numbers(random, kind), numbers(random, kind), numbers(random, kind)};
           };
           for (std::uint32_t number = 0; number < 100; ++number) {
-            balls.append();
+            balls.grow(number + 1);
             balls.set_bound(number, {.position = vector() * 2.0,
                                      .velocity = vector(),
                                      .radius = std::abs(numbers(random, kind)) * 0.3,

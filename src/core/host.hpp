@@ -1,0 +1,38 @@
+// Host is the world around a core: it knows what two bodies that come near are to each other.
+#pragma once
+
+#include <cstdint>
+
+#include "kinesphere/result.hpp"
+#include "kinesphere/vec3.hpp"
+
+namespace kinesphere::core {
+
+/// The core calls the functions while it settles changes and while it handles what is due. Times that are
+/// returned are never earlier than now. Those later than the own time of a ball (Ball::own) mean no more than
+/// that time.
+class Host {
+ public:
+  /// Returns false if the two never have to do with each other.
+  virtual bool may_meet(std::uint32_t a, std::uint32_t b) = 0;
+  /// Returns a time before which nothing happens between two neighbours, from what is known of them; now if
+  /// reports have to decide.
+  virtual double unchanged_until(std::uint32_t a, std::uint32_t b) = 0;
+  /// Finds out whether something happens between two neighbours now, with reports if these are needed.
+  /// Returns a time before which nothing more happens between them; infinity if they are to be told to the
+  /// core as changed. Errors: those of the reports, after which nothing has changed.
+  virtual Result<double> recheck(std::uint32_t a, std::uint32_t b) = 0;
+  /// The same of a ball and the walls.
+  virtual double walls_unchanged_until(std::uint32_t ball) = 0;
+  virtual Result<double> recheck_walls(std::uint32_t ball) = 0;
+  /// Gets a report of the ball, and tells the core (Core::report()).
+  virtual Result<void> refresh(std::uint32_t ball) = 0;
+  /// The safe region of a ball in periodic space is now around `centre`. Two balls meet in the images in
+  /// which the centres of their safe regions are nearest.
+  virtual void note_image(std::uint32_t ball, const Vec3& centre) = 0;
+
+ protected:
+  ~Host() = default;
+};
+
+}  // namespace kinesphere::core
