@@ -83,7 +83,7 @@ Result<void> DistributedWorld::RankEngine::add_rigid_body(std::uint32_t name, co
   if (!valid) return valid;
   const RigidRecord turning = record_of(added, time());
   const Bound bound = bound_now(body, time());
-  const Overlaps overlaps(rank_.bodies(), rank_.state.broad_phase, time());
+  const Overlaps overlaps(rank_.state, time());
   if (const auto wall = overlaps.of_wall({bound, false, nullptr, body.radius, &turning}, body.filter))
     return wall_error(call, no_body, *wall);
   const std::uint32_t number = insert(name, body, number_in_motion);

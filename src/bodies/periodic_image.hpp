@@ -33,6 +33,17 @@ struct PeriodicImage {
     for (int axis = 0; axis < 3; ++axis) image[axis] = std::clamp(image[axis], -most_images, most_images);
     return space.shift_of(images);
   }
+  /// The body at `place` goes on in the image in which it is nearest to `centre`, a point in the primary box.
+  /// Returns the shift from the old position to the new one.
+  Vec3 follow(const Space& space, const Vec3& place, const Vec3& centre) {
+    middle = centre;
+    const Vec3 shift = space.shift_to_nearest(place, centre);
+    for (int axis = 0; axis < 3; ++axis)
+      if (shift[axis] != 0.0)
+        image[axis] = std::clamp(image[axis] - std::round(shift[axis] / space.period()[axis]), -most_images,
+                                 most_images);
+    return shift;
+  }
   /// Returns true if the counts are whole numbers, zero on axes that are not periodic, and the centre is
   /// finite.
   bool is_valid(const Space& space) const {

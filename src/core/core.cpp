@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 
 #include "bodies/body_bounds.hpp"
 #include "bound/quick_reject.hpp"
@@ -28,6 +29,8 @@ Periods periods_of(const Space& space) {
 }
 
 }  // namespace
+
+bool worlds_have_cores() { return std::getenv("KINESPHERE_CORE") != nullptr; }
 
 Core::Core(const WorldDefinition& definition, double link)
     : dimensions_(definition.dimensions),

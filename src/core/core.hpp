@@ -41,6 +41,9 @@
 
 namespace kinesphere::core {
 
+/// Returns true if worlds are to find what is due with a core: if the environment sets KINESPHERE_CORE.
+bool worlds_have_cores();
+
 struct CoreCounters {
   std::uint64_t due = 0;         ///< balls that came to be due
   std::uint64_t regions = 0;     ///< safe regions that were chosen

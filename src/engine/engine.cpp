@@ -21,7 +21,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
     }
     if (auto recertified = recertify(lease); !recertified) return recertified.error();
     if (!main_.events().pending().empty()) continue;
-    const double next = std::min(main_.pause(), main_.next_time());
+    const double next = std::min(main_.pause(), main_.next_time(until));
     if (next > until) {
       main_.advance_clock(until);
       return std::optional<Event>();
@@ -34,6 +34,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
 Result<bool> World::Engine::prepare_batch(const Probe& probe, PoolLease& lease) {
   main_.reports().ask(probe, "advance");
   main_.note_response();
+  if (state_.core) return false;
   if (main_.is_gathering() || !main_.events().is_quiet()) return false;
   if (main_.pause() <= time()) {
     if (auto noted = main_.note_instant(); !noted) return noted.error();
@@ -66,10 +67,17 @@ Result<void> World::Engine::gather(double until, PoolLease& lease) {
 Result<void> World::Engine::recertify(PoolLease& lease) {
   if (main_.is_recertified()) return {};
   main_.recertify_changed();
-  if (main_.dirty().has_arrivals(bodies())) {
+  if (!state_.core && main_.dirty().has_arrivals(bodies())) {
     if (auto started = start_with_arrivals(lease); !started) return started;
   }
   return main_.recertify();
+}
+
+Box World::Engine::box(std::uint32_t number) const {
+  if (!state_.core) return broad_phase().box_of(number, time());
+  const Vec3 centre = state_.core->region_centre(number);
+  const double reach = state_.core->region_reach(number);
+  return {centre - Vec3{reach, reach, reach}, centre + Vec3{reach, reach, reach}};
 }
 
 CallState World::Engine::activity() const {

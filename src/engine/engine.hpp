@@ -43,7 +43,7 @@ class World::Engine {
   }
   double epoch_end() const { return main_.epoch_end(); }
   /// Returns true if there is work to do before time can advance.
-  bool is_due() { return std::min(main_.pause(), main_.next_time()) <= time(); }
+  bool is_due() { return std::min(main_.pause(), main_.next_time(time())) <= time(); }
   double time() const { return main_.time(); }
   CallState activity() const;
 
@@ -54,6 +54,15 @@ class World::Engine {
   const ContactGraph& contacts() const { return state_.contacts; }
   const BroadPhase& broad_phase() const { return state_.broad_phase; }
   const EventProcessor& main() const { return main_; }
+  const WorldState& state() const { return state_; }
+  /// Returns true if the body is registered for searches.
+  bool is_registered(std::uint32_t number) const {
+    return state_.core ? state_.core->contains(number) : broad_phase().contains(number);
+  }
+  /// Returns the time until which the body stays in its box.
+  double box_end(std::uint32_t number) const {
+    return state_.core ? state_.core->balls()[number].own : broad_phase().end_of(number);
+  }
   /// Returns all valid certificates, or those that involve the body `number`.
   std::vector<PairCertificate> certificates(std::optional<std::uint32_t> number = std::nullopt) const;
   /// Returns all bodies that may be in the box now, in ascending order.
@@ -62,8 +71,10 @@ class World::Engine {
   }
   const WorldDefinition& definition() const { return bodies().definition(); }
   const Counters& counters() const { return main_.work().counters; }
+  /// Returns the view of a body, with its last report moved into the primary box of a periodic space.
+  BodyView view(std::uint32_t number) const;
   /// Returns a box that contains the body and its sensor reach from now until its window ends.
-  Box box(std::uint32_t number) const { return broad_phase().box_of(number, time()); }
+  Box box(std::uint32_t number) const;
   class Answers;
   class Queries;
   std::optional<AuditFinding> audit() const;
@@ -73,7 +84,7 @@ class World::Engine {
   /// Returns the last profile, or nullptr if there was none.
   const ProbeProfile* profile() const { return profile_.get(); }
 
-  Overlaps overlaps() const { return {bodies(), broad_phase(), time()}; }
+  Overlaps overlaps() const { return {state_, time()}; }
   /// Probes bodies as EventProcessor::probe_stale() does. Must not be called during advance().
   Result<bool> probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask, std::string_view call);
 

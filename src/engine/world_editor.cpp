@@ -69,6 +69,7 @@ void World::WorldEditor::insert_at(std::uint32_t number, const Bound& bound) {
   body.bound = bound;
   body.relocated = true;
   if (bound.is_exact() && !body.is_static()) state_.spot_checks.note_arrival(time());
+  if (state_.core) return insert_in_core(number);
   BroadPhase& windows = state_.broad_phase;
   if (windows.contains(number)) windows.leave(number);
   main_.invalidate(number);
@@ -78,6 +79,13 @@ void World::WorldEditor::insert_at(std::uint32_t number, const Bound& bound) {
   if (bodies().space().repeats()) state_.bodies.wrap_to_primary(number, time(), 0.0);
   windows.enter(number, inflated_bound(bodies(), number, time()), time(), window);
   windows.tidy();
+}
+
+/// Bodies added before the next advance must be able to find it.
+void World::WorldEditor::insert_in_core(std::uint32_t number) {
+  if (state_.core->contains(number)) state_.core->leave(number);
+  main_.invalidate(number);
+  if (!bodies().definition().allow_overlap) main_.enter_core(number);
 }
 
 void World::WorldEditor::end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends) {

@@ -57,6 +57,7 @@ class World::WorldEditor {
   Sleeping sleeping() { return {state_, main_}; }
   BodyId insert(const BodyDefinition& definition, auto give_form);
   void insert_at(std::uint32_t number, const Bound& bound);
+  void insert_in_core(std::uint32_t number);
   void replace(std::uint32_t number, const Bound& bound);
   void end_contacts_outside(std::uint32_t number, const CollisionShape& replacement);
   void end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends);

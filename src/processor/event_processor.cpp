@@ -18,11 +18,15 @@ void EventProcessor::open_queue() {
 Result<void> EventProcessor::gather(double until) {
   for (;;) {
     if (auto recertified = recertify(); !recertified) return recertified;
-    const double next = next_time();
+    const double next = next_time(until);
     if (next > time_) {
       if (next > until || next >= pause() || !events_.is_quiet()) break;
       advance_clock(next);
       if (auto noted = note_instant(); !noted) return noted;
+    }
+    if (uses_core()) {
+      if (auto handled = core().handle_next(*this); !handled) return handled;
+      continue;
     }
     const PairCertificate pair = queue_.take_first();
     if (certifier().is_stale(pair)) continue;
@@ -88,6 +92,7 @@ Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, Probe
     for (const std::uint32_t number : numbers) log_->note_change(number, time_);
   const auto broken = reports_.take(bodies(), time_, numbers, lease);
   if (!broken) return broken.error();
+  if (uses_core()) note_reports(numbers);
   for (const auto& [k, velocity, violation, acceleration_limit] : *broken) {
     Sphere reported = sphere(numbers[k]);
     reported.state.velocity = velocity;
@@ -188,7 +193,9 @@ void EventProcessor::detach(std::uint32_t number) {
   Body& body = bodies()[number];
   ++body.revision;
   body.dirty = body.relocated = false;
-  if (log_) {
+  if (uses_core()) {
+    if (core().contains(number)) core().leave(number);
+  } else if (log_) {
     log_->add(SweptSphereUpdate::departure(number, body.revision, time_));
   } else if (state_->broad_phase.contains(number)) {
     state_->broad_phase.leave(number);
@@ -216,12 +223,17 @@ Result<void> EventProcessor::recertify_all() {
   while (!dirty_.empty()) {
     if (auto recertified = recertify_dirty(); !recertified) return recertified;
   }
+  if (!linked_.empty()) {
+    round_.clear();
+    settle_core();
+  }
   return {};
 }
 
 /// Certifies a pair again after its contact changed, since the earlier certificate applied to the earlier
 /// contact state. If a == b, the pair is the body and the walls.
 void EventProcessor::recertify_changed(std::uint32_t a, std::uint32_t b) {
+  if (uses_core()) return note_link_change(a, b);
   if (!bodies()[a].present() || !bodies()[b].present() || bodies()[a].dirty || bodies()[b].dirty) return;
   queue_.add(certifier().certificate(time_, a, a == b ? PairCertificate::walls : b));
 }

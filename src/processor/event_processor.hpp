@@ -30,12 +30,14 @@
 #include "broadphase/certificate_queue.hpp"
 #include "contact/contact_predictor.hpp"
 #include "contact/pending_events.hpp"
+#include "core/host.hpp"
 #include "kinesphere/result.hpp"
 #include "number/infinity.hpp"
 #include "parallel/thread_pool.hpp"
 #include "processor/dirty_list.hpp"
 #include "processor/pace.hpp"
 #include "processor/pair_certifier.hpp"
+#include "processor/pair_times.hpp"
 #include "processor/reports.hpp"
 #include "processor/speculation_log.hpp"
 #include "processor/window_choice.hpp"
@@ -43,7 +45,7 @@
 
 namespace kinesphere {
 
-class alignas(128) EventProcessor {
+class alignas(128) EventProcessor final : public core::Host {
  public:
   EventProcessor(WorldState& state, double time) : state_(&state), time_(time) {}
   /// Copies a processor, to work on `state`, a copy of the other's world state.
@@ -73,14 +75,17 @@ class alignas(128) EventProcessor {
   /// Returns true if the work of this instant has begun and is incomplete. It stays true when an invalid
   /// report interrupts it; the next call then continues.
   bool is_gathering() const { return gathering_; }
-  /// Returns the earliest failure time in the queue; +infinity if the queue is empty.
-  double next_time() {
+  /// Returns the earliest time at which something is due; +infinity if nothing is, or if it is later than
+  /// `until`.
+  double next_time(double until = infinity) {
+    if (uses_core()) return core().next_due(until);
     if (!queue_.is_open()) open_queue();
     return queue_.next_time();
   }
   void advance_clock(double time) {
     if (time > time_) events_.start();
     time_ = time;
+    if (uses_core()) core().set_time(time);
   }
   /// Advances the clock to an instant at which work is due.
   void begin_instant(double time) {
@@ -104,7 +109,7 @@ class alignas(128) EventProcessor {
   Result<void> recertify() { return is_recertified() ? Result<void>() : recertify_all(); }
   /// Returns true if recertify() would do nothing.
   bool is_recertified() const {
-    return events_.changed().empty() && dirty_.empty() && !events_.awaits_response();
+    return events_.changed().empty() && dirty_.empty() && linked_.empty() && !events_.awaits_response();
   }
   /// Gives bodies, none of which is dirty, new swept spheres and certificates in place of the present ones.
   void restart(std::span<const std::uint32_t> numbers);
@@ -177,7 +182,27 @@ class alignas(128) EventProcessor {
   }
   std::size_t bytes() const;
 
+  /// Enters a body that is known by the core from now on, but has no neighbours before it is recertified.
+  void enter_core(std::uint32_t number);
+  bool uses_core() const { return state_->core.has_value(); }
+
  private:
+  // core_host.cpp
+  core::Core& core() { return *state_->core; }
+  Bound extent_of(std::uint32_t number) const;
+  void link_in_core(std::uint32_t number);
+  void settle_core();
+  void note_reports(std::span<const std::uint32_t> numbers);
+  void note_link_change(std::uint32_t a, std::uint32_t b);
+  double keep_time(std::uint32_t a, std::uint32_t b, const std::optional<double>& until, double end);
+  bool may_meet(std::uint32_t a, std::uint32_t b) override;
+  double unchanged_until(std::uint32_t a, std::uint32_t b) override;
+  Result<double> recheck(std::uint32_t a, std::uint32_t b) override;
+  double walls_unchanged_until(std::uint32_t ball) override;
+  Result<double> recheck_walls(std::uint32_t ball) override;
+  Result<void> refresh(std::uint32_t ball) override;
+  void note_image(std::uint32_t ball, const Vec3& centre) override;
+
   void open_queue();
   Result<void> recertify_all();
   WindowChoice window_choice() const { return {*state_, time_}; }
@@ -202,8 +227,8 @@ class alignas(128) EventProcessor {
 
   // rechecks.cpp
   Result<void> recheck(const PairCertificate& pair);
-  Result<void> recheck_pair(std::uint32_t a, std::uint32_t b);
-  Result<void> recheck_walls(std::uint32_t number);
+  Result<std::optional<double>> check_pair(std::uint32_t a, std::uint32_t b);
+  Result<std::optional<double>> check_walls(std::uint32_t number);
   double note_rates(RelativeLimits& limits, std::initializer_list<std::uint32_t> numbers, double end) const;
   std::optional<double> decide_pair(std::uint32_t a, std::uint32_t b);
   std::optional<double> decide_walls(std::uint32_t number);
@@ -230,6 +255,8 @@ class alignas(128) EventProcessor {
   Pace pace_;
   WorkCounters work_;
   Reports reports_;
+  PairTimes known_;                    ///< with a core: of pairs that are near
+  std::vector<std::uint32_t> linked_;  ///< with a core: bodies whose contacts have changed
   SpeculationLog* log_ = nullptr;  ///< nullptr for the processor with all bodies
   // Members only to reuse their memory.
   std::vector<std::uint32_t> round_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "broadphase/neighbour_search.hpp"
+#include "processor/bodies_in.hpp"
+
 namespace kinesphere {
 namespace {
 
@@ -26,8 +29,7 @@ std::optional<BodyId> Overlaps::of_body(BodyId id, const CollisionShape& shape,
                                         const BodyDefinition& definition) const {
   std::optional<BodyId> found;
   const Box box = box_now(bodies_, shape, now_);
-  NeighbourSearch search;
-  for (const std::uint32_t other : search.in_box(windows_, box, now_)) {
+  for (const std::uint32_t other : registered_in(box, state_, now_)) {
     const Body& body = bodies_[other];
     const CollisionShape partner = collision_shape_of(bodies_, other);
     const bool certain =

@@ -8,14 +8,13 @@
 #include <utility>
 
 #include "bodies/body_bounds.hpp"
-#include "broadphase/neighbour_search.hpp"
+#include "processor/world_state.hpp"
 
 namespace kinesphere {
 
 class Overlaps {
  public:
-  Overlaps(const Bodies& bodies, const BroadPhase& windows, double now)
-      : bodies_(bodies), windows_(windows), now_(now) {}
+  Overlaps(const WorldState& state, double now) : state_(state), bodies_(state.bodies), now_(now) {}
 
   /// Returns the first other body, in the order of id indices, that certainly overlaps body `id` with this
   /// shape and definition and may touch it. Cost: one search.
@@ -28,8 +27,8 @@ class Overlaps {
   std::optional<std::pair<std::size_t, std::size_t>> first_among(std::span<const BodyDefinition> added) const;
 
  private:
+  const WorldState& state_;
   const Bodies& bodies_;
-  const BroadPhase& windows_;
   double now_;
 };
 

@@ -128,8 +128,6 @@ double PairCertifier::walls_unchanged_until(std::uint32_t number) const {
   return first;
 }
 
-/// Returns true if the next event of two near bodies would be an approach, and they recede for good: a
-/// response has just parted them.
 [[gnu::noinline]] bool PairCertifier::bounce_apart(std::uint32_t a, std::uint32_t b) const {
   if (bodies().sensors.any() || wants_ends(bodies().wanted_of(a, b))) return false;
   const Bound& bound = *bound_ref(a).bound;

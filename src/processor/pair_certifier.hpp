@@ -65,6 +65,7 @@ class PairCertifier {
 
   /// Returns the time until which the body stays in its swept sphere.
   double window_end_of(std::uint32_t number) const {
+    if (state_.core) return state_.core->balls()[number].own;
     const SweptSphereUpdate* update = log_ ? log_->last_update(number) : nullptr;
     return update != nullptr ? update->window.end : windows_.end_of(number);
   }
@@ -111,6 +112,9 @@ class PairCertifier {
   /// Returns true if apart_until() needs more of the two bodies than their bounds. If they are in different
   /// clusters, that is unknown of the other one.
   bool needs_thresholds(std::uint32_t a, std::uint32_t b) const;
+  /// Returns true if the next event of two near bodies would be an approach, and they recede for good: a
+  /// response has just parted them.
+  bool bounce_apart(std::uint32_t a, std::uint32_t b) const;
   /// Returns the time before which no threshold of the two is crossed, by the contact rules; +infinity if
   /// never. Valid for linked and unlinked pairs.
   double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;
@@ -133,7 +137,6 @@ class PairCertifier {
   double until_search(std::uint32_t a, std::uint32_t b, double end) const;
   std::optional<double> apart_by_balls(BoundRef a, BoundRef b) const;
   double apart_until(const BoundRef& a, const BoundRef& b) const;
-  bool bounce_apart(std::uint32_t a, std::uint32_t b) const;
   const Bodies& bodies() const { return state_.bodies; }
   const ContactGraph& contacts() const { return state_.contacts; }
   /// Returns the checkpoint of a body that another cluster may be changing concurrently; nullptr for all
@@ -151,7 +154,7 @@ class PairCertifier {
   }
   /// Returns bound_ref() for the processor with all bodies, which has no log to search.
   BoundRef bound_ref_without_log(std::uint32_t number) const {
-    return {number, &bodies()[number].bound, windows_.end_of(number),
+    return {number, &bodies()[number].bound, window_end_of(number),
             bodies().space().repeats() ? &bodies().images[number].middle : nullptr};
   }
   std::uint32_t revision_of(std::uint32_t number) const {

@@ -14,6 +14,10 @@ Result<void> EventProcessor::recertify_dirty() {
   if (auto probed = probe_stale(round_, ProbeCause::change, alone); !probed) return probed.error();
   // Reports that violate bounds may have made further bodies dirty.
   round_ = dirty_.numbers();
+  if (uses_core()) {
+    settle_core();
+    return {};
+  }
   recertify(round_);
   for (const std::uint32_t number : round_) bodies()[number].mark_visited();
   dirty_.clear();

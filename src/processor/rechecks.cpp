@@ -13,35 +13,37 @@ namespace kinesphere {
 Result<void> EventProcessor::recheck(const PairCertificate& pair) {
   // Returns the certificate to the queue unless its recheck completes.
   ScopeGuard requeue([this, pair] { queue_.add(pair); });
-  auto rechecked = pair.kind() == PairCertificate::Kind::pair         ? recheck_pair(pair.first, pair.second)
-                   : pair.kind() == PairCertificate::Kind::with_walls ? recheck_walls(pair.first)
-                                                                      : renew(pair.first);
-  if (rechecked) requeue.dismiss();
-  return rechecked;
+  if (pair.kind() == PairCertificate::Kind::window_end) {
+    auto renewed = renew(pair.first);
+    if (renewed) requeue.dismiss();
+    return renewed;
+  }
+  const bool with_walls = pair.kind() == PairCertificate::Kind::with_walls;
+  const auto until = with_walls ? check_walls(pair.first) : check_pair(pair.first, pair.second);
+  if (!until) return until.error();
+  requeue.dismiss();
+  const double end = with_walls ? certifier().walls_end_of(pair.first)
+                                : certifier().earliest_window_end(pair.first, pair.second);
+  if (*until && **until < end) queue_.add(certifier().certificate(**until, pair.first, pair.second));
+  return {};
 }
 
-Result<void> EventProcessor::recheck_pair(std::uint32_t a, std::uint32_t b) {
+/// Finds out whether something happens between two bodies now. Returns a time before which nothing does, which
+/// means nothing beyond the earlier window end; nullopt if an event waits, or if one of the two is dirty.
+Result<std::optional<double>> EventProcessor::check_pair(std::uint32_t a, std::uint32_t b) {
   ++work_.counters.pair_checks;
   const PairCertifier certifier = this->certifier();
-  const double end = certifier.earliest_window_end(a, b);
   // A violated bound makes a body dirty; recertification then creates all its certificates.
   while (!bodies()[a].dirty && !bodies()[b].dirty) {
     const bool fresh = bodies()[a].fresh(time_) && bodies()[b].fresh(time_);
-    if (fresh) {
-      const auto next = decide_pair(a, b);
-      if (next && *next < end) queue_.add(certifier.certificate(*next, a, b));
-      return {};
-    }
+    if (fresh) return decide_pair(a, b);
     ++work_.counters.certificates;
     const double until = certifier.are_linked(a, b) ? certifier.unchanged_until_by_thresholds(a, b)
                                                     : certifier.apart_until(a, b);
-    if (until > time_) {
-      if (until < end) queue_.add(certifier.certificate(until, a, b));
-      return {};
-    }
-    if (auto probed = probe_stale_of(a, b); !probed) return probed;
+    if (until > time_) return std::optional(until);
+    if (auto probed = probe_stale_of(a, b); !probed) return probed.error();
   }
-  return {};
+  return std::optional<double>();
 }
 
 /// Probes the body with the older report, or the second one if both are equally old. If neither is fresh and
@@ -142,26 +144,17 @@ double EventProcessor::defer(const ContactPredictor<Partner>& predictor, const T
   return jam.is_last ? predictor.until_separated() : decision.next_check;
 }
 
-/// Rechecks the certificate of a body and the walls.
-Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
+/// Evaluates check_pair() for a body and the walls.
+Result<std::optional<double>> EventProcessor::check_walls(std::uint32_t number) {
   ++work_.counters.wall_checks;
-  const PairCertifier certifier = this->certifier();
-  const double end = certifier.walls_end_of(number);
   while (!bodies()[number].dirty) {
-    if (bodies()[number].fresh(time_)) {
-      const auto next = decide_walls(number);
-      if (next && *next < end) queue_.add(certifier.certificate(*next, number, PairCertificate::walls));
-      return {};
-    }
-    const double until = certifier.walls_unchanged_until(number);
-    if (until > time_) {
-      if (until < end) queue_.add(certifier.certificate(until, number, PairCertificate::walls));
-      return {};
-    }
+    if (bodies()[number].fresh(time_)) return decide_walls(number);
+    const double until = certifier().walls_unchanged_until(number);
+    if (until > time_) return std::optional(until);
     const ProbeCause cause = contacts().walls_of(number) != 0 ? ProbeCause::touching : ProbeCause::near;
-    if (auto probed = probe(std::span(&number, 1), cause); !probed) return probed;
+    if (auto probed = probe(std::span(&number, 1), cause); !probed) return probed.error();
   }
-  return {};
+  return std::optional<double>();
 }
 
 /// Applies the contact rule to the fresh report of a body, for each wall that it touches or may reach. The

@@ -1,10 +1,13 @@
 // WorldState is the part of a world that all event processors share.
 #pragma once
 
+#include <optional>
+
 #include "bodies/body_bounds.hpp"
 #include "broadphase/broad_phase.hpp"
 #include "broadphase/window_policy.hpp"
 #include "contact/contact_graph.hpp"
+#include "core/core.hpp"
 #include "processor/spot_checks.hpp"
 
 namespace kinesphere {
@@ -14,13 +17,17 @@ struct WorldState {
       : bodies(definition),
         contacts(definition),
         broad_phase(bodies.space()),
-        window_policy(longest_way(bodies.definition()), definition.dimensions) {}
+        window_policy(longest_way(bodies.definition()), definition.dimensions) {
+    if (core::worlds_have_cores()) core.emplace(definition, contacts.rule().release_gap());
+  }
 
   Bodies bodies;
   ContactGraph contacts;
   BroadPhase broad_phase;
   WindowPolicy window_policy;
   SpotChecks spot_checks;
+  /// Finds what is due in place of windows and certificates, which then are not used.
+  std::optional<core::Core> core;
 };
 
 }  // namespace kinesphere

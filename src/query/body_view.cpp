@@ -1,4 +1,4 @@
-#include "query/body_view.hpp"
+#include "engine/engine.hpp"
 
 #include <algorithm>
 
@@ -6,7 +6,9 @@
 
 namespace kinesphere {
 
-BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_t number, double now) {
+BodyView World::Engine::view(std::uint32_t number) const {
+  const Bodies& bodies = this->bodies();
+  const double now = time();
   const Body& body = bodies[number];
   const Space& space = bodies.space();
   const double radius = bodies.radius_at(number, now);
@@ -21,9 +23,9 @@ BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_
                 body.has_shape() ? bodies.shapes.of(body) : Ball{body.bound.position, radius}};
   view.definition.radius = radius;
   if (body.is_rigid) view.rigid = rigid_body(bodies, number);
-  if (windows.contains(number)) {
-    view.box = windows.box_of(number, now);
-    view.box_end = windows.end_of(number);
+  if (is_registered(number)) {
+    view.box = box(number);
+    view.box_end = box_end(number);
   }
   if (!space.repeats()) return view;
   const auto [position, images] = space.wrapped(body.bound.position);

@@ -12,7 +12,6 @@
 #include "engine/engine.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/inspection.hpp"
-#include "query/body_view.hpp"
 #include "recording/recorder.hpp"
 #include "world/changing.hpp"
 #include "world/preconditions.hpp"
@@ -353,7 +352,7 @@ Result<std::vector<std::byte>> World::stop_recording() {
 
 Result<BodyView> World::body(BodyId id) const {
   if (auto valid = Preconditions(*this, "body").known(id); !valid) return valid.error();
-  return body_view(engine_->bodies(), engine_->broad_phase(), id.index, engine_->time());
+  return engine_->view(id.index);
 }
 
 Result<std::vector<BodyId>> World::touching(BodyId body) const {

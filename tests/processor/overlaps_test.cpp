@@ -30,7 +30,7 @@ TEST(Overlaps, OfNewBodiesAreTheFirstPairInOrder) {
   SCOPED_TRACE(seed);
   Random random(seed);
   const SmallWorld world;
-  const Overlaps overlaps(world.state.bodies, world.state.broad_phase, 0.0);
+  const Overlaps overlaps(world.state, 0.0);
   int found = 0;
   for (int k = 0; k < 200; ++k) {
     const std::vector<BodyDefinition> added = random_balls(random, 12, 1.0);
@@ -52,7 +52,7 @@ TEST(Overlaps, OfABodyAreThoseWithTheOthersThatAreThere) {
   const std::vector<BodyDefinition> others = random_balls(random, 40, 2.0);
   for (const BodyDefinition& ball : others) world.add(ball);
   ASSERT_TRUE(world.main.recertify());
-  const Overlaps overlaps(world.state.bodies, world.state.broad_phase, 0.0);
+  const Overlaps overlaps(world.state, 0.0);
   const BodyId id = world.state.bodies.table().next_id();
   for (const BodyDefinition& added : random_balls(random, 200, 2.0)) {
     const auto found = overlaps.of_body(id, {bound_now(added, 0.0)}, added);
@@ -68,7 +68,7 @@ TEST(Overlaps, OfABodyAreThoseWithTheOthersThatAreThere) {
 
 TEST(Overlaps, OfWallsBeginBeyondTheTolerance) {
   const SmallWorld world({.box = Box{{0, 0, 0}, {9, 9, 9}}, .wall_filter = Filter{.category = 2}});
-  const Overlaps overlaps(world.state.bodies, world.state.broad_phase, 0.0);
+  const Overlaps overlaps(world.state, 0.0);
   const auto wall_at = [&](const Vec3& position, std::uint64_t mask = 2) {
     const Bound bound = bound_now({.radius = 1.0, .position = position}, 0.0);
     return overlaps.of_wall({bound}, {.mask = mask});

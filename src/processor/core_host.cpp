@@ -1,0 +1,120 @@
+// What the core asks of an event processor (core/host.hpp), and what it is told.
+#include "bodies/body_bounds.hpp"
+#include "processor/event_processor.hpp"
+
+namespace kinesphere {
+
+/// Returns the bound of a body as the core knows it: the ball around its shape, as far as it senses.
+Bound EventProcessor::extent_of(std::uint32_t number) const {
+  const Body& body = bodies()[number];
+  if (body.is_static()) {
+    const InflatedBound ball = inflated_bound(bodies(), number, time_);
+    return {.time = time_, .position = ball.moved.centre, .radius = ball.moved.radius + ball.margin};
+  }
+  Bound extent = body.bound;
+  extent.radius += sensor_reach(bodies(), number);
+  return extent;
+}
+
+void EventProcessor::enter_core(std::uint32_t number) {
+  if (bodies().space().repeats()) bodies().wrap_to_primary(number, time_, 0.0);
+  core().enter(number, extent_of(number), bodies()[number].is_static(), bodies().meets_walls(number));
+  link_in_core(number);
+}
+
+/// Tells the core whether the body touches or senses anything.
+void EventProcessor::link_in_core(std::uint32_t number) {
+  core().set_linked(number, contacts().walls_of(number) != 0 || !contacts().partners_of(number).empty() ||
+                                !contacts().overlaps_of(number).empty());
+}
+
+/// Tells the core of reports that have begun bounds anew.
+void EventProcessor::note_reports(std::span<const std::uint32_t> numbers) {
+  for (const std::uint32_t number : numbers) {
+    if (!core().contains(number)) continue;
+    if (bodies().radii.any())
+      core().set_bound(number, extent_of(number));
+    else
+      core().report(number, {bodies()[number].bound.position, bodies()[number].bound.velocity});
+  }
+}
+
+/// A delivered event has changed the contact of two bodies, or of a body and the walls if a == b.
+void EventProcessor::note_link_change(std::uint32_t a, std::uint32_t b) {
+  known_.forget(a, b);
+  for (const std::uint32_t number : {a, b}) {
+    if (!core().contains(number)) continue;
+    link_in_core(number);
+    linked_.push_back(number);
+  }
+}
+
+/// Tells the core of the bodies that have changed, and of those whose contacts have.
+void EventProcessor::settle_core() {
+  for (const std::uint32_t number : round_) {
+    Body& body = bodies()[number];
+    const bool is_known = core().contains(number);
+    if (is_known && body.relocated) core().leave(number);
+    if (is_known && !body.relocated)
+      core().set_bound(number, extent_of(number));
+    else
+      enter_core(number);
+    body.mark_visited();
+  }
+  work_.counters.restarts += round_.size();
+  dirty_.clear();
+  round_.insert(round_.end(), linked_.begin(), linked_.end());
+  linked_.clear();
+  std::sort(round_.begin(), round_.end());
+  round_.erase(std::unique(round_.begin(), round_.end()), round_.end());
+  std::erase_if(round_, [this](std::uint32_t number) { return !core().contains(number); });
+  core().settle(round_, *this);
+}
+
+bool EventProcessor::may_meet(std::uint32_t a, std::uint32_t b) { return bodies().may_meet(a, b); }
+
+double EventProcessor::unchanged_until(std::uint32_t a, std::uint32_t b) {
+  if (const double known = known_.find(bodies(), a, b); known > time_) return known;
+  const PairCertifier certifier = this->certifier();
+  if (certifier.are_linked(a, b)) return certifier.unchanged_until_by_thresholds(a, b);
+  const double until = certifier.apart_until(a, b);
+  if (until <= time_) return certifier.bounce_apart(a, b) ? infinity : time_;
+  if (bodies()[a].is_shaped() || bodies()[b].is_shaped())
+    known_.keep(bodies(), a, b, std::min(until, certifier.earliest_window_end(a, b)), time_);
+  return until;
+}
+
+Result<double> EventProcessor::recheck(std::uint32_t a, std::uint32_t b) {
+  const auto until = check_pair(a, b);
+  if (!until) return until.error();
+  return keep_time(a, b, *until, certifier().earliest_window_end(a, b));
+}
+
+double EventProcessor::walls_unchanged_until(std::uint32_t ball) {
+  if (const double known = known_.find(bodies(), ball, ball); known > time_) return known;
+  return certifier().walls_unchanged_until(ball);
+}
+
+Result<double> EventProcessor::recheck_walls(std::uint32_t ball) {
+  const auto until = check_walls(ball);
+  if (!until) return until.error();
+  return keep_time(ball, ball, *until, certifier().walls_end_of(ball));
+}
+
+/// Remembers the outcome of a recheck. If an event waits, that is until the contact has changed.
+double EventProcessor::keep_time(std::uint32_t a, std::uint32_t b, const std::optional<double>& until,
+                                 double end) {
+  known_.keep(bodies(), a, b, until ? std::min(*until, end) : infinity, time_);
+  return until.value_or(infinity);
+}
+
+Result<void> EventProcessor::refresh(std::uint32_t ball) {
+  return probe(std::span(&ball, 1), ProbeCause::window);
+}
+
+void EventProcessor::note_image(std::uint32_t ball, const Vec3& centre) {
+  Body& body = bodies()[ball];
+  body.bound.position += bodies().images[ball].follow(bodies().space(), body.bound.centre_at(time_), centre);
+}
+
+}  // namespace kinesphere
