@@ -6,12 +6,12 @@
 
 namespace kinesphere::core {
 
-const char* Core::audit(Host& host) const {
+const char* Core::audit(const std::function<bool(std::uint32_t, std::uint32_t)>& concerns) const {
   const auto present = [this](std::uint32_t number) {
     return balls_[number].is_present() && !balls_[number].is(Ball::arriving);
   };
   for (std::uint32_t a = 0; a < balls_.size(); ++a) {
-    if (!present(a)) continue;
+    if (!present(a) || !concerns(a, a)) continue;
     const Ball& ball = balls_[a];
     const Bound own = balls_.bound(a);
     const double left = std::min(ball.own, balls_.time() + 1e6 * std::max(1.0, std::abs(balls_.time())));
@@ -38,7 +38,7 @@ const char* Core::audit(Host& host) const {
       if (near &&
           !((ball.is(Ball::passive) || lists(ball, b)) && (other.is(Ball::passive) || lists(other, a))))
         return "N";
-      if (!host.may_meet(a, b)) continue;
+      if (!concerns(a, b)) continue;
       // What is due may be about this pair; it is not later than they may touch.
       const double due = std::min(ball.due, other.due);
       // Two that are in touch wait for as long as the caller has put them off.

@@ -99,21 +99,28 @@ Result<void> Core::handle_next(Host& host) {
 }
 
 Result<void> Core::handle(std::uint32_t number, Host& host) {
-  const Ball& ball = balls_[number];
-  if (ball.about == number) {
+  const std::uint32_t other = balls_[number].about;
+  if (other == none) return handle_own(number, host);
+  if (other == number) {
     schedule(number, host);
-  } else if (ball.about != none) {
-    const Result<double> until = host.recheck(number, ball.about);
-    if (!until) return until.error();
-    postpone(number, *until);
-  } else if (ball.is(Ball::at_wall)) {
-    const Result<double> until = host.recheck_walls(number);
-    if (!until) return until.error();
-    compute_own(number, *until);
-    schedule(number, host);
-  } else {
-    return leave_region(number, host);
+    return {};
   }
+  // What the host says of the two holds until the own time of either.
+  if (!(balls_[other].own > balls_.time()))
+    if (auto handled = handle_own(other, host); !handled) return handled;
+  const Result<double> until = host.recheck(number, other);
+  if (!until) return until.error();
+  postpone(number, *until);
+  return {};
+}
+
+/// The ball may leave its safe region, or concern a wall.
+Result<void> Core::handle_own(std::uint32_t number, Host& host) {
+  if (!balls_[number].is(Ball::at_wall)) return leave_region(number, host);
+  const Result<double> until = host.recheck_walls(number);
+  if (!until) return until.error();
+  compute_own(number, *until);
+  schedule(number, host);
   return {};
 }
 
@@ -200,7 +207,8 @@ double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double h
   const QuickReject pair(own, other);
   if (pair.stay_apart(horizon, margin_ + link)) return infinity;
   if (pair.is_near(std::max(tolerance_, link))) return host.unchanged_until(number, neighbour);
-  return std::max(rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_ + link)), balls_.time());
+  const double time = rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_ + link));
+  return time > balls_.time() ? time : host.unchanged_until(number, neighbour);
 }
 
 /// Fetches what the balls that are due next need. Some of them may have been removed since they were queued.

@@ -27,6 +27,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -97,13 +98,15 @@ class Core {
   /// Returns a typical reach of small safe regions (length).
   double least_reach() const { return cells_.median_reach() * unit_; }
 
-  /// Checks the invariants by brute force, as far as bounds tell. Returns the name of the first one that does
-  /// not hold, or nullptr. Cost: O(n^2).
-  const char* audit(Host& host) const;
+  /// Checks the invariants by brute force, as far as bounds tell, for the pairs that `concerns` each other; a
+  /// ball with itself if it does not wait for settle(). Returns the name of the first one that does not hold,
+  /// or nullptr. Cost: O(n^2).
+  const char* audit(const std::function<bool(std::uint32_t, std::uint32_t)>& concerns) const;
 
  private:
   // core.cpp: the loop.
   Result<void> handle(std::uint32_t number, Host& host);
+  Result<void> handle_own(std::uint32_t number, Host& host);
   void postpone(std::uint32_t number, double time);
   void schedule(std::uint32_t number, Host& host);
   void consider(Ball& ball, std::uint32_t other, double time);

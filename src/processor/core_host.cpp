@@ -19,7 +19,6 @@ Bound EventProcessor::extent_of(std::uint32_t number) const {
 void EventProcessor::enter_core(std::uint32_t number) {
   if (bodies().space().repeats()) bodies().wrap_to_primary(number, time_, 0.0);
   core().enter(number, extent_of(number), bodies()[number].is_static(), bodies().meets_walls(number));
-  link_in_core(number);
 }
 
 /// Tells the core whether the body touches or senses anything.
@@ -59,6 +58,7 @@ void EventProcessor::settle_core() {
       core().set_bound(number, extent_of(number));
     else
       enter_core(number);
+    link_in_core(number);
     body.mark_visited();
   }
   work_.counters.restarts += round_.size();
