@@ -39,12 +39,21 @@ struct alignas(64) Ball {
   static constexpr std::uint8_t at_wall = 8;      ///< `own` is about a wall
   static constexpr std::uint8_t arriving = 16;  ///< it has no neighbours yet, and its safe region is a point
 
+  static constexpr std::uint8_t present = 32;   ///< the record is that of a ball
+
   bool is(std::uint8_t flag) const { return (flags & flag) != 0; }
   void set(std::uint8_t flag, bool on) {
     flags = static_cast<std::uint8_t>(on ? flags | flag : flags & ~flag);
   }
   bool has_region() const { return slot != none; }
-  bool is_present() const { return list != none || is(passive); }
+  bool is_present() const { return is(present); }
+
+  /// Serializes all but where its list and its safe region are.
+  static void serialize(auto& self, auto& archive) {
+    archive(self.position, self.time, self.velocity, self.radius, self.due, self.second, self.own,
+            self.acceleration_limit, self.centre[0], self.centre[1], self.centre[2], self.region, self.about,
+            self.walls, self.flags, self.scans, self.scans_by_region);
+  }
 };
 static_assert(sizeof(Ball) == 128);
 

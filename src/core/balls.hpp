@@ -1,6 +1,7 @@
 // Balls holds the records of all balls, and says where their bounds are at the present time.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -109,6 +110,22 @@ class Balls {
   }
   /// Returns the vector from the centre of one bound to that of the nearest image of another.
   Vec3 between(std::uint32_t from, std::uint32_t to) const { return nearest(position(to) - position(from)); }
+
+  static void serialize(auto& self, auto& archive) {
+    archive(self.balls_, self.drifts_, self.grows_);
+  }
+  /// Validates a record that was read from bytes.
+  bool is_valid(std::uint32_t number) const {
+    const Ball& ball = balls_[number];
+    if (!ball.is_present()) return true;
+    const auto is_ordinary = [](double value) { return std::abs(value) < 1e30; };
+    return is_finite(ball.position) && is_finite(ball.velocity) && std::isfinite(ball.time) &&
+           ball.time <= now_ && ball.radius >= 0.0 && std::isfinite(ball.radius) &&
+           ball.acceleration_limit >= 0.0 && std::isfinite(ball.acceleration_limit) &&
+           is_ordinary(ball.centre[0]) && is_ordinary(ball.centre[1]) && is_ordinary(ball.centre[2]) &&
+           is_ordinary(ball.region) && ball.due >= now_ && ball.second >= ball.due && ball.own >= ball.due;
+  }
+  bool has_valid_drifts() const { return drifts_.empty() || drifts_.size() == balls_.size(); }
 
  private:
   std::vector<Ball> balls_;

@@ -52,6 +52,7 @@ void Core::enter(std::uint32_t number, const Bound& bound, bool is_passive, bool
   ball.set(Ball::passive, is_passive);
   ball.set(Ball::meets_walls, meets_walls);
   ball.set(Ball::arriving, true);
+  ball.set(Ball::present, true);
   if (!is_passive) ball.list = lists_.add();
   balls_.set_bound(number, bound);
   place_region(number, 0.0);
@@ -87,6 +88,33 @@ void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
   queued_for_ = balls_.size();
 }
 
+bool Core::rebuild(double time) {
+  balls_.set_time(time);
+  if (!balls_.has_valid_drifts()) return false;
+  for (std::uint32_t number = 0; number < balls_.size(); ++number) {
+    if (!balls_.is_valid(number)) return false;
+    Ball& ball = balls_[number];
+    if (!ball.is_present()) continue;
+    ++present_;
+    if (!ball.is(Ball::passive)) ball.list = lists_.add();
+    cells_.enter(balls_, number, std::max(reach(ball), 0x1p-100F));
+  }
+  for (std::uint32_t number = 0; number < balls_.size(); ++number) {
+    const Ball& ball = balls_[number];
+    if (ball.is_present() && !ball.is(Ball::passive) && !ball.is(Ball::arriving)) find_neighbours(number);
+  }
+  for (std::uint32_t number = 0; number < balls_.size(); ++number) {
+    const Ball& ball = balls_[number];
+    if (!ball.is_present() || ball.about == none || ball.about == number) continue;
+    if (ball.is(Ball::passive) || ball.is(Ball::arriving)) return false;
+    const auto list = lists_.at(ball.list);
+    if (!std::binary_search(list.begin(), list.end(), ball.about)) return false;
+  }
+  queue_.refill(balls_.all(), time);
+  queued_for_ = balls_.size();
+  return true;
+}
+
 Result<void> Core::handle_next(Host& host) {
   const DueQueue::Entry first = queue_.first(balls_.all(), balls_.time());
   queue_.pop();
@@ -117,8 +145,16 @@ Result<void> Core::handle(std::uint32_t number, Host& host) {
 /// The ball may leave its safe region, or concern a wall.
 Result<void> Core::handle_own(std::uint32_t number, Host& host) {
   if (!balls_[number].is(Ball::at_wall)) return leave_region(number, host);
+  // The host looks as far ahead as the ball stays in its safe region.
+  const double own = balls_[number].own;
+  compute_own(number, infinity);
+  ScopeGuard again([&] {
+    balls_[number].own = own;
+    balls_[number].set(Ball::at_wall, true);
+  });
   const Result<double> until = host.recheck_walls(number);
   if (!until) return until.error();
+  again.dismiss();
   compute_own(number, *until);
   schedule(number, host);
   return {};

@@ -88,6 +88,13 @@ class Core {
   /// then.
   Result<void> handle_next(Host& host);
 
+  /// Serializes what rebuild() cannot find again.
+  static void serialize(auto& self, auto& archive) {
+    archive(self.balls_, self.first_radius_, self.measured_);
+  }
+  /// Makes the rest anew after reading, at this time. Returns false if no core could have been so.
+  bool rebuild(double time);
+
   // Queries.
   /// Returns the numbers of all balls that may be within `radius` of `centre` (lengths), and possibly others,
   /// in any order.
@@ -121,6 +128,7 @@ class Core {
   void place_region(std::uint32_t number, double radius);
   void enter_region(std::uint32_t number, double radius, Host& host);
   void find_neighbours(std::uint32_t number);
+  void forget(std::uint32_t number, std::uint32_t neighbour);
   void forget_neighbours(std::uint32_t number);
   void place_arrivals(std::span<const std::uint32_t> changed, Host& host);
   void choose_first_radius();

@@ -155,10 +155,16 @@ void Core::find_neighbours(std::uint32_t number) {
   found.resize(count);
   gone_.insert(gone_.end(), next, former.end());
   for (const std::uint32_t other : gone_)
-    if (!balls_[other].is(Ball::passive)) lists_.erase(balls_[other].list, number);
+    if (!balls_[other].is(Ball::passive)) forget(other, number);
   for (const std::uint32_t other : new_)
     if (!balls_[other].is(Ball::passive)) lists_.insert(balls_[other].list, number);
   lists_.assign(balls_[number].list, found);
+}
+
+/// The ball no longer has this neighbour. If it is due about it, it looks for others then.
+void Core::forget(std::uint32_t number, std::uint32_t neighbour) {
+  lists_.erase(balls_[number].list, neighbour);
+  if (balls_[number].about == neighbour) balls_[number].about = number;
 }
 
 void Core::forget_neighbours(std::uint32_t number) {
@@ -167,12 +173,11 @@ void Core::forget_neighbours(std::uint32_t number) {
   if (ball.is(Ball::passive)) {
     cells_.search(ball, reach(ball), search_);
     for (const std::uint32_t other : search_.found)
-      if (!balls_[other].is(Ball::passive) && !balls_[other].is(Ball::arriving))
-        lists_.erase(balls_[other].list, number);
+      if (!balls_[other].is(Ball::passive) && !balls_[other].is(Ball::arriving)) forget(other, number);
     return;
   }
   for (const std::uint32_t other : lists_.at(ball.list))
-    if (!balls_[other].is(Ball::passive)) lists_.erase(balls_[other].list, number);
+    if (!balls_[other].is(Ball::passive)) forget(other, number);
   lists_.assign(balls_[number].list, {});
 }
 

@@ -48,6 +48,7 @@ void World::Engine::serialize(Self& self, Archive& archive) {
     if (is_prepared) self.prepared_.emplace(self.bodies().space(), self.state_.window_policy);
   }
   if (self.prepared_) archive(*self.prepared_);
+  if (self.state_.core) archive(*self.state_.core);
   // The queue is saved as its valid certificates in sorted order, without stale ones and without its buckets.
   if constexpr (std::is_const_v<Self>) {
     std::vector<PairCertificate> pairs = self.certificates();
@@ -85,6 +86,8 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
     return refusal("must hold a world, but its content does not have the form of one");
   if (const char* where = engine->first_invalid_part())
     return refusal(std::string("must hold a world that can be, but contradicts itself in its ") + where);
+  if (auto& core = engine->state_.core; core && !core->rebuild(engine->time()))
+    return refusal("must hold a world that can be, but contradicts itself in its safe regions");
   engine->main_.queue().add_all(engine->read_pairs_);
   if (engine->prepared_) engine->main_.set_next_slice(engine->prepared_->next_slice());
   if (pair_filter) engine->state_.bodies.filters.keep_pair_filter(std::move(pair_filter));
@@ -105,6 +108,7 @@ const char* World::Engine::first_invalid_part() const {
     return "contacts";
   if (!broad_phase().is_valid(bodies().numbers()) || !state_.window_policy.is_valid()) return "windows";
   if (!state_.spot_checks.is_valid()) return "spot checks";
+  if (state_.core && !main_.knows_valid_times()) return "certificates";
   if (!prepared_ && broad_phase().search_begin() != -infinity) return "windows";
   if (prepared_ &&
       (!may_prepare_starts() || !state_.window_policy.is_chosen() || !prepared_->is_valid(state_)))
@@ -113,10 +117,10 @@ const char* World::Engine::first_invalid_part() const {
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
     const Body& body = bodies()[number];
     const bool takes_part = body.present();
-    const bool registered = broad_phase().contains(number);
+    const bool registered = is_registered(number);
     if (body.alive && !contacts().has_form_of(number, body.has_shape(), body.is_static())) return "contacts";
     if (takes_part ? !registered && !bodies()[number].dirty : registered) return "windows";
-    if (registered && body.is_static() && broad_phase().end_of(number) != infinity) return "windows";
+    if (registered && body.is_static() && box_end(number) != infinity) return "windows";
     if (!takes_part && (!contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty()))
       return "contacts";
     if (!(takes_part && bodies().meets_walls(number)) && contacts().walls_of(number) != 0) return "contacts";

@@ -179,6 +179,12 @@ class alignas(128) EventProcessor final : public core::Host {
   static void serialize(auto& self, auto& archive) {
     archive(self.events_, self.time_, self.epoch_end_, self.dirty_, self.gathering_, self.work_.counters,
             self.work_.recertified);
+    if (self.uses_core()) archive(self.known_, self.linked_);
+  }
+  /// Validates what was read from bytes of pairs that are near.
+  bool knows_valid_times() const {
+    const auto is_known = [this](std::uint32_t number) { return number < bodies().numbers(); };
+    return known_.is_valid(bodies().numbers()) && std::all_of(linked_.begin(), linked_.end(), is_known);
   }
   std::size_t bytes() const;
 

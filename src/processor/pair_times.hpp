@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -35,6 +36,17 @@ class PairTimes {
   }
 
   static void serialize(auto& self, auto& archive) { archive(self.table_, self.count_); }
+  /// Validates what was read from bytes.
+  bool is_valid(std::size_t bodies) const {
+    const auto is_entry = [=](const Entry& entry) {
+      return entry.pair == nothing ||
+             (entry.first() < bodies && entry.second() < bodies && !std::isnan(entry.until));
+    };
+    const auto taken = static_cast<std::size_t>(std::count_if(
+        table_.begin(), table_.end(), [](const Entry& entry) { return entry.pair != nothing; }));
+    return (table_.empty() || std::has_single_bit(table_.size())) && 2 * taken <= table_.size() &&
+           taken == count_ && std::all_of(table_.begin(), table_.end(), is_entry);
+  }
   std::size_t bytes() const { return table_.capacity() * sizeof(Entry); }
 
  private:
