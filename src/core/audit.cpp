@@ -6,12 +6,12 @@
 
 namespace kinesphere::core {
 
-const char* Core::audit(const std::function<bool(std::uint32_t, std::uint32_t)>& concerns) const {
+const char* Core::audit(const std::function<Claim(std::uint32_t, std::uint32_t)>& claim_of) const {
   const auto present = [this](std::uint32_t number) {
     return balls_[number].is_present() && !balls_[number].is(Ball::arriving);
   };
   for (std::uint32_t a = 0; a < balls_.size(); ++a) {
-    if (!present(a) || !concerns(a, a)) continue;
+    if (!present(a) || claim_of(a, a) == Claim::nothing) continue;
     const Ball& ball = balls_[a];
     const Bound own = balls_.bound(a);
     const double left = std::min(ball.own, balls_.time() + 1e6 * std::max(1.0, std::abs(balls_.time())));
@@ -38,7 +38,7 @@ const char* Core::audit(const std::function<bool(std::uint32_t, std::uint32_t)>&
       if (near &&
           !((ball.is(Ball::passive) || lists(ball, b)) && (other.is(Ball::passive) || lists(other, a))))
         return "N";
-      if (!concerns(a, b)) continue;
+      if (claim_of(a, b) != Claim::meet_as_balls) continue;
       // What is due may be about this pair; it is not later than they may touch.
       const double due = std::min(ball.due, other.due);
       // Two that are in touch wait for as long as the caller has put them off.

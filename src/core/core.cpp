@@ -88,12 +88,20 @@ void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
   queued_for_ = balls_.size();
 }
 
+std::optional<Core::Certificate> Core::certificate_of(std::uint32_t number) const {
+  if (!contains(number)) return std::nullopt;
+  const Ball& ball = balls_[number];
+  const bool is_about_walls = ball.about == none && ball.is(Ball::at_wall);
+  if (ball.about == number || (ball.about == none && !is_about_walls)) return std::nullopt;
+  return Certificate{ball.about, ball.due};
+}
+
 bool Core::rebuild(double time) {
   balls_.set_time(time);
   if (!balls_.has_valid_drifts()) return false;
   for (std::uint32_t number = 0; number < balls_.size(); ++number) {
-    if (!balls_.is_valid(number)) return false;
     Ball& ball = balls_[number];
+    if (!balls_.is_valid(number) || !(ball.radius < 0x1p32 * unit_)) return false;
     if (!ball.is_present()) continue;
     ++present_;
     if (!ball.is(Ball::passive)) ball.list = lists_.add();
@@ -128,6 +136,8 @@ Result<void> Core::handle_next(Host& host) {
 
 Result<void> Core::handle(std::uint32_t number, Host& host) {
   const std::uint32_t other = balls_[number].about;
+  static int trace = getenv("TRACE") ? atoi(getenv("TRACE")) : 0; { const Ball& ball = balls_[number];
+  if (trace > 0 && trace-- < 4000) fprintf(stderr, "%.17g ball %u about %d wall %d due %.17g second %.17g own %.17g region %g at %g %g v %g flags %d walls %d\n", balls_.time(), number, int(ball.about), ball.is(Ball::at_wall), ball.due, ball.second, ball.own, ball.region*unit_, balls_.position(number).x,balls_.position(number).y, norm(balls_.velocity(number)), ball.flags, ball.walls);}
   if (other == none) return handle_own(number, host);
   if (other == number) {
     schedule(number, host);

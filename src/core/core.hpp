@@ -96,6 +96,13 @@ class Core {
   bool rebuild(double time);
 
   // Queries.
+  /// What a ball is due about, and when.
+  struct Certificate {
+    std::uint32_t other;  ///< none for the walls
+    double until;
+  };
+  /// Returns the certificate that a ball waits for; nullopt if it is that of its safe region.
+  std::optional<Certificate> certificate_of(std::uint32_t number) const;
   /// Returns the numbers of all balls that may be within `radius` of `centre` (lengths), and possibly others,
   /// in any order.
   std::vector<std::uint32_t> find(const Vec3& centre, double radius) const;
@@ -105,10 +112,11 @@ class Core {
   /// Returns a typical reach of small safe regions (length).
   double least_reach() const { return cells_.median_reach() * unit_; }
 
-  /// Checks the invariants by brute force, as far as bounds tell, for the pairs that `concerns` each other; a
-  /// ball with itself if it does not wait for settle(). Returns the name of the first one that does not hold,
-  /// or nullptr. Cost: O(n^2).
-  const char* audit(const std::function<bool(std::uint32_t, std::uint32_t)>& concerns) const;
+  /// What a check may expect of two balls; of a ball with itself, `nothing` while it waits for settle().
+  enum class Claim { nothing, neighbours, meet_as_balls };
+  /// Checks the invariants by brute force, as far as bounds tell. Returns the name of the first one that does
+  /// not hold, or nullptr. Cost: O(n^2).
+  const char* audit(const std::function<Claim(std::uint32_t, std::uint32_t)>& claim_of) const;
 
  private:
   // core.cpp: the loop.

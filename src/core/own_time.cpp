@@ -52,9 +52,12 @@ double Core::stays(std::uint32_t number) const {
   if (ball.is(Ball::passive)) return infinity;
   const double room = double{ball.region} * unit_ - margin_ - balls_.growth(number);
   const double qq = norm_squared(q), qv = dot(q, v), vv = norm_squared(v);
-  const bool moves = vv > 0.0, grows = rate > 0.0 || limit > 0.0;
+  const bool moves = v != Vec3{}, grows = rate > 0.0 || limit > 0.0;
   if (!moves && !grows) return infinity;
   if (!(room > 0.0) || !(qq < room * room)) return 0.0;
+  // Of the slowest, squares underflow.
+  if (vv < 0x1p-800)
+    return rounding::first_crossing(room - (1.0 + 0x1p-40) * std::sqrt(qq), -(norm_one(v) + rate), -limit);
   double guess;
   if (grows) {
     guess = 2.0 * room / (rate + std::sqrt(rate * rate + 2.0 * limit * room));

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "contact/contact_event.hpp"
+#include "contact/contact_predictor.hpp"
 #include "core/core.hpp"
 #include "number/infinity.hpp"
 #include "number/roots.hpp"
@@ -68,6 +69,8 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
     find_neighbours(number);
   }
   compute_own(number, host);
+  // Where images leave too little room for the least step of time, nothing better can be said.
+  if (!ball.is(Ball::at_wall)) ball.own = std::max(ball.own, just_after(balls_.time()));
   schedule(number, host);
   return {};
 }
@@ -98,6 +101,9 @@ void Core::place_region(std::uint32_t number, double radius) {
   // Single precision tells so much apart here. A ball that stands still needs no more.
   const double resolved = 0x1p-20 * (norm_one(centre - origin_) + ball.radius) + tolerance_;
   const bool stands = speed == 0.0 && balls_.is_exact(number) && balls_.plan(number) == Vec3{};
+  // Times may be so coarse that it goes farther in the least step.
+  const double step = 0x1p-49 * std::abs(balls_.time());
+  radius = std::max(radius, (speed + balls_.growth_speed(number) + ball.acceleration_limit * step) * step);
   radius = stands ? 0.0 : std::min(radius, widest_region(ball) - growth - resolved);
   if (speed > 0.0) centre += motion * (ahead * radius / speed);
   for (int axis = 0; axis < 3; ++axis) {

@@ -77,7 +77,7 @@ Box World::Engine::box(std::uint32_t number) const {
   if (!state_.core) return broad_phase().box_of(number, time());
   const Vec3 centre = state_.core->region_centre(number);
   const double reach = state_.core->region_reach(number);
-  return {centre - Vec3{reach, reach, reach}, centre + Vec3{reach, reach, reach}};
+  return bodies().space().within({centre - Vec3{reach, reach, reach}, centre + Vec3{reach, reach, reach}});
 }
 
 CallState World::Engine::activity() const {

@@ -63,7 +63,11 @@ class World::Engine::Audit {
   void check_core() {
     if (finding_ || !core()) return;
     const char* const broken = core()->audit([this](std::uint32_t a, std::uint32_t b) {
-      return !body(a).dirty && !body(b).dirty && (a == b || engine_.bodies().may_meet(a, b));
+      using Claim = core::Core::Claim;
+      if (body(a).dirty || body(b).dirty) return Claim::nothing;
+      const bool as_balls =
+          engine_.bodies().may_meet(a, b) && !body(a).is_shaped() && !body(b).is_shaped();
+      return as_balls ? Claim::meet_as_balls : Claim::neighbours;
     });
     if (broken) find("core", std::string("invariant ") + broken + " of src/core/core.hpp does not hold");
   }

@@ -57,6 +57,15 @@ std::vector<CellView> World::Inspection::cells() const {
 std::vector<Certificate> World::Inspection::certificates() const {
   const Engine& engine = world_->engine("certificates");
   std::vector<Certificate> all;
+  if (const auto& core = engine.state().core) {
+    for (std::uint32_t number = 0; number < engine.bodies().numbers(); ++number)
+      if (const auto found = core->certificate_of(number)) {
+        const BodyId other = found->other == core::none ? no_body : engine.bodies().id_of(found->other);
+        const auto [first, second] = std::minmax({engine.bodies().id_of(number), other});
+        all.push_back({first, second, found->until});
+      }
+    return all;
+  }
   for (const PairCertificate& pair : engine.certificates()) {
     if (pair.kind() == PairCertificate::Kind::window_end) continue;
     const BodyId other = pair.has_second() ? engine.bodies().id_of(pair.second) : no_body;
