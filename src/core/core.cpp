@@ -136,8 +136,6 @@ Result<void> Core::handle_next(Host& host) {
 
 Result<void> Core::handle(std::uint32_t number, Host& host) {
   const std::uint32_t other = balls_[number].about;
-  static int trace = getenv("TRACE") ? atoi(getenv("TRACE")) : 0; { const Ball& ball = balls_[number];
-  if (trace > 0 && trace-- < 4000) fprintf(stderr, "%.17g ball %u about %d wall %d due %.17g second %.17g own %.17g region %g at %g %g v %g flags %d walls %d\n", balls_.time(), number, int(ball.about), ball.is(Ball::at_wall), ball.due, ball.second, ball.own, ball.region*unit_, balls_.position(number).x,balls_.position(number).y, norm(balls_.velocity(number)), ball.flags, ball.walls);}
   if (other == none) return handle_own(number, host);
   if (other == number) {
     schedule(number, host);
@@ -157,7 +155,7 @@ Result<void> Core::handle_own(std::uint32_t number, Host& host) {
   if (!balls_[number].is(Ball::at_wall)) return leave_region(number, host);
   // The host looks as far ahead as the ball stays in its safe region.
   const double own = balls_[number].own;
-  compute_own(number, infinity);
+  compute_stay(number);
   ScopeGuard again([&] {
     balls_[number].own = own;
     balls_[number].set(Ball::at_wall, true);
@@ -165,7 +163,7 @@ Result<void> Core::handle_own(std::uint32_t number, Host& host) {
   const Result<double> until = host.recheck_walls(number);
   if (!until) return until.error();
   again.dismiss();
-  compute_own(number, *until);
+  limit_own(number, *until);
   schedule(number, host);
   return {};
 }

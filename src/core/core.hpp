@@ -147,7 +147,8 @@ class Core {
 
   // own_time.cpp
   void compute_own(std::uint32_t number, Host& host);
-  void compute_own(std::uint32_t number, double walls_until);
+  void compute_stay(std::uint32_t number);
+  void limit_own(std::uint32_t number, double walls_until);
   double stays(std::uint32_t number) const;
   double clear_of_walls(std::uint32_t number, Host& host) const;
   double clear_of_wall(std::uint32_t number, Wall wall) const;

@@ -11,20 +11,24 @@ namespace kinesphere::core {
 
 /// Computes Ball::own.
 void Core::compute_own(std::uint32_t number, Host& host) {
-  compute_own(number, infinity);
-  // The host looks no farther than until then.
-  if (const double until = clear_of_walls(number, host); until < balls_[number].own) {
-    balls_[number].own = until;
-    balls_[number].set(Ball::at_wall, true);
-  }
+  compute_stay(number);
+  limit_own(number, clear_of_walls(number, host));
 }
 
-/// Computes Ball::own, given a time before which nothing happens between the ball and the walls.
-void Core::compute_own(std::uint32_t number, double walls_until) {
+/// Computes Ball::own as if there were no walls.
+void Core::compute_stay(std::uint32_t number) {
   Ball& ball = balls_[number];
-  const double time = std::max(rounding::sum_down(balls_.time(), stays(number)), balls_.time());
-  ball.own = std::min(time, walls_until);
-  ball.set(Ball::at_wall, walls_until < time);
+  ball.own = std::max(rounding::sum_down(balls_.time(), stays(number)), balls_.time());
+  ball.set(Ball::at_wall, false);
+}
+
+/// Nothing happens between the ball and the walls before this time. The host has looked no farther than until
+/// Ball::own.
+void Core::limit_own(std::uint32_t number, double walls_until) {
+  Ball& ball = balls_[number];
+  if (!(walls_until < ball.own)) return;
+  ball.own = walls_until;
+  ball.set(Ball::at_wall, true);
 }
 
 /// Returns a time before which nothing happens between the ball and the walls; now if reports have to decide.
