@@ -35,6 +35,7 @@ const char* Core::audit(const std::function<Claim(std::uint32_t, std::uint32_t)>
       const double distance = norm(balls_.nearest(region_centre(ball) - region_centre(other)));
       const bool near = distance <= regions + ball.radius + other.radius + tolerance_;
       if (ball.is(Ball::passive) && other.is(Ball::passive)) continue;
+      if (claim_of(a, b) == Claim::nothing) continue;
       if (near &&
           !((ball.is(Ball::passive) || lists(ball, b)) && (other.is(Ball::passive) || lists(other, a))))
         return "N";

@@ -111,9 +111,7 @@ class Balls {
   /// Returns the vector from the centre of one bound to that of the nearest image of another.
   Vec3 between(std::uint32_t from, std::uint32_t to) const { return nearest(position(to) - position(from)); }
 
-  static void serialize(auto& self, auto& archive) {
-    archive(self.balls_, self.drifts_, self.grows_);
-  }
+  static void serialize(auto& self, auto& archive) { archive(self.balls_, self.drifts_, self.grows_); }
   /// Validates a record that was read from bytes.
   bool is_valid(std::uint32_t number) const {
     const Ball& ball = balls_[number];

@@ -96,7 +96,7 @@ std::optional<Core::Certificate> Core::certificate_of(std::uint32_t number) cons
   return Certificate{ball.about, ball.due};
 }
 
-bool Core::rebuild(double time) {
+bool Core::rebuild(double time, Host& host) {
   balls_.set_time(time);
   if (!balls_.has_valid_drifts()) return false;
   for (std::uint32_t number = 0; number < balls_.size(); ++number) {
@@ -109,7 +109,8 @@ bool Core::rebuild(double time) {
   }
   for (std::uint32_t number = 0; number < balls_.size(); ++number) {
     const Ball& ball = balls_[number];
-    if (ball.is_present() && !ball.is(Ball::passive) && !ball.is(Ball::arriving)) find_neighbours(number);
+    if (ball.is_present() && !ball.is(Ball::passive) && !ball.is(Ball::arriving))
+      find_neighbours(number, host);
   }
   for (std::uint32_t number = 0; number < balls_.size(); ++number) {
     const Ball& ball = balls_[number];
@@ -194,11 +195,11 @@ void Core::schedule(std::uint32_t number, Host& host) {
   counters_.scanned += neighbours.size();
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     const auto some = neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes));
-    for (std::uint32_t left = candidates(number, some); left != 0; left &= left - 1) {
+    for (std::uint32_t left = candidates(number, some, ball.second - balls_.time()); left != 0;
+         left &= left - 1) {
       const std::uint32_t other = some[static_cast<std::size_t>(std::countr_zero(left))];
       ++counters_.candidates;
-      if (host.may_meet(number, other))
-        consider(ball, other, apart_until(number, other, ball.second - balls_.time(), host));
+      consider(ball, other, apart_until(number, other, ball.second - balls_.time(), host));
     }
   }
   queue_.push(balls_.all(), number);
@@ -215,10 +216,10 @@ void Core::consider(Ball& ball, std::uint32_t other, double time) {
   }
 }
 
-/// Returns a bit for each of some neighbours that may be met before Ball::second.
-std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours) const {
+/// Returns a bit for each of some neighbours that may be met within this time from now.
+std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
+                               double duration) const {
   const Ball& ball = balls_[number];
-  const double duration = ball.second - balls_.time();
   if (!balls_.any_drifts()) {
     const NearQuery query{balls_.time(),
                           duration,

@@ -93,7 +93,7 @@ class Core {
     archive(self.balls_, self.first_radius_, self.measured_);
   }
   /// Makes the rest anew after reading, at this time. Returns false if no core could have been so.
-  bool rebuild(double time);
+  bool rebuild(double time, Host& host);
 
   // Queries.
   /// What a ball is due about, and when.
@@ -125,7 +125,8 @@ class Core {
   void postpone(std::uint32_t number, double time);
   void schedule(std::uint32_t number, Host& host);
   void consider(Ball& ball, std::uint32_t other, double time);
-  std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours) const;
+  std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
+                           double duration) const;
   double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon, Host& host) const;
   /// How much more than its radius a scan of a ball takes into account (length).
   double link_of(const Ball& ball) const { return ball.is(Ball::linked) ? link_ : 0.0; }
@@ -135,12 +136,13 @@ class Core {
   Result<void> leave_region(std::uint32_t number, Host& host);
   void place_region(std::uint32_t number, double radius);
   void enter_region(std::uint32_t number, double radius, Host& host);
-  void find_neighbours(std::uint32_t number);
+  void find_neighbours(std::uint32_t number, Host& host);
   void forget(std::uint32_t number, std::uint32_t neighbour);
   void forget_neighbours(std::uint32_t number);
   void place_arrivals(std::span<const std::uint32_t> changed, Host& host);
   void choose_first_radius();
-  double next_radius(Ball& ball) const;
+  double next_radius(std::uint32_t number);
+  double near_now(std::uint32_t number) const;
   double widest_region(const Ball& ball) const;
   float reach(const Ball& ball) const;
   Vec3 region_centre(const Ball& ball) const;

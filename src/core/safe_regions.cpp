@@ -1,5 +1,6 @@
 // Safe regions: how large, where, and who their neighbours are.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -65,8 +66,8 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
     if (is_wide || is_far)
       if (auto refreshed = host.refresh(number); !refreshed) return refreshed;
     cells_.leave(balls_, number);
-    enter_region(number, next_radius(ball), host);
-    find_neighbours(number);
+    enter_region(number, next_radius(number), host);
+    find_neighbours(number, host);
   }
   compute_own(number, host);
   // Where images leave too little room for the least step of time, nothing better can be said.
@@ -75,20 +76,32 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
   return {};
 }
 
-/// Returns the radius of the next safe region (length). A wider one lasts longer, but has more neighbours.
-/// The sum of both costs is least where their derivatives cancel; how many neighbours there are, and how
-/// often they are scanned in each region, is known from the last ones.
-double Core::next_radius(Ball& ball) const {
+/// Returns the radius of the next safe region (length). A wider one lasts longer, but has more neighbours,
+/// apart from those that are near in any case. The sum of both costs is least where their derivatives cancel;
+/// how many neighbours there are, and how often they are scanned in each region, is known from the last ones.
+double Core::next_radius(std::uint32_t number) {
+  Ball& ball = balls_[number];
   ball.scans_by_region =
       static_cast<std::uint8_t>(std::min((3u * ball.scans_by_region + 8u * ball.scans + 2u) / 4u, 255u));
   ball.scans = 0;
   const double radius = std::max(double{ball.region} * unit_, 0x1p-10 * ball.radius + tolerance_);
   const double neighbours = std::max(static_cast<double>(lists_.at(ball.list).size()), 0.5);
+  const double others = std::max(neighbours - near_now(number), 0.5);
   const double scans = 0.125 * ball.scans_by_region;
   const double wanted = 2.0 * (radius + ball.radius) * (cost_of_region + cost_of_neighbour * neighbours) /
-                        (dimensions_ * neighbours * (cost_of_neighbour + cost_of_scan * scans));
+                        (dimensions_ * others * (cost_of_neighbour + cost_of_scan * scans));
   const double ratio = std::clamp(wanted / radius, 0.25, 4.0);
   return radius * std::sqrt(std::sqrt(ratio));
+}
+
+/// Returns how many neighbours may be in touch with the ball now.
+double Core::near_now(std::uint32_t number) const {
+  const auto neighbours = lists_.at(balls_[number].list);
+  int near = 0;
+  for (std::size_t k = 0; k < neighbours.size(); k += most_lanes)
+    near += std::popcount(
+        candidates(number, neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes)), 0.0));
+  return near;
 }
 
 /// Gives the ball a safe region of about this radius (length), around and ahead of where its bound is now.
@@ -132,12 +145,13 @@ void Core::enter_region(std::uint32_t number, double radius, Host& host) {
 }
 
 /// Makes those within reach the neighbours of the ball, and it theirs; others are no longer.
-void Core::find_neighbours(std::uint32_t number) {
+void Core::find_neighbours(std::uint32_t number, Host& host) {
   cells_.search(balls_[number], reach(balls_[number]), search_);
   std::vector<std::uint32_t>& found = search_.found;
   if (balls_[number].is(Ball::passive)) {
     for (const std::uint32_t other : found) {
       if (balls_[other].is(Ball::passive) || balls_[other].is(Ball::arriving)) continue;
+      if (!host.may_meet(number, other)) continue;
       lists_.insert(balls_[other].list, number);
       settling_.push_back(other);
     }
@@ -150,7 +164,7 @@ void Core::find_neighbours(std::uint32_t number) {
   auto next = former.begin();
   std::size_t count = 0;
   for (const std::uint32_t other : found) {
-    if (other == number || balls_[other].is(Ball::arriving)) continue;
+    if (other == number || balls_[other].is(Ball::arriving) || !host.may_meet(number, other)) continue;
     found[count++] = other;
     while (next != former.end() && *next < other) gone_.push_back(*next++);
     if (next != former.end() && *next == other)
@@ -178,8 +192,11 @@ void Core::forget_neighbours(std::uint32_t number) {
   if (ball.is(Ball::arriving)) return;
   if (ball.is(Ball::passive)) {
     cells_.search(ball, reach(ball), search_);
-    for (const std::uint32_t other : search_.found)
-      if (!balls_[other].is(Ball::passive) && !balls_[other].is(Ball::arriving)) forget(other, number);
+    for (const std::uint32_t other : search_.found) {
+      const auto list =
+          balls_[other].list == none ? std::span<const std::uint32_t>() : lists_.at(balls_[other].list);
+      if (std::binary_search(list.begin(), list.end(), number)) forget(other, number);
+    }
     return;
   }
   for (const std::uint32_t other : lists_.at(ball.list))
@@ -201,7 +218,7 @@ void Core::place_arrivals(std::span<const std::uint32_t> changed, Host& host) {
   if (2 * arrivals.size() > present_) cells_.rebuild(balls_);
   for (const std::uint32_t number : arrivals) {
     balls_[number].set(Ball::arriving, false);
-    find_neighbours(number);
+    find_neighbours(number, host);
   }
   std::sort(settling_.begin(), settling_.end());
   settling_.erase(std::unique(settling_.begin(), settling_.end()), settling_.end());

@@ -86,11 +86,11 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
     return refusal("must hold a world, but its content does not have the form of one");
   if (const char* where = engine->first_invalid_part())
     return refusal(std::string("must hold a world that can be, but contradicts itself in its ") + where);
-  if (auto& core = engine->state_.core; core && !core->rebuild(engine->time()))
+  if (pair_filter) engine->state_.bodies.filters.keep_pair_filter(std::move(pair_filter));
+  if (auto& core = engine->state_.core; core && !engine->main_.rebuild_core())
     return refusal("must hold a world that can be, but contradicts itself in its safe regions");
   engine->main_.queue().add_all(engine->read_pairs_);
   if (engine->prepared_) engine->main_.set_next_slice(engine->prepared_->next_slice());
-  if (pair_filter) engine->state_.bodies.filters.keep_pair_filter(std::move(pair_filter));
   return engine;
 }
 

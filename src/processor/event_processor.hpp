@@ -190,6 +190,8 @@ class alignas(128) EventProcessor final : public core::Host {
 
   /// Enters a body that is known by the core from now on, but has no neighbours before it is recertified.
   void enter_core(std::uint32_t number);
+  /// Makes anew what a snapshot does not contain of a core. Returns false if no core could have been so.
+  bool rebuild_core() { return core().rebuild(time_, *this); }
   bool uses_core() const { return state_->core.has_value(); }
 
  private:
@@ -263,7 +265,7 @@ class alignas(128) EventProcessor final : public core::Host {
   Reports reports_;
   PairTimes known_;                    ///< with a core: of pairs that are near
   std::vector<std::uint32_t> linked_;  ///< with a core: bodies whose contacts have changed
-  SpeculationLog* log_ = nullptr;  ///< nullptr for the processor with all bodies
+  SpeculationLog* log_ = nullptr;      ///< nullptr for the processor with all bodies
   // Members only to reuse their memory.
   std::vector<std::uint32_t> round_;
   std::vector<InflatedBound> entered_;  ///< bounds with which the bodies of the next search() entered

@@ -28,8 +28,9 @@ Result<void> EventProcessor::recheck(const PairCertificate& pair) {
   return {};
 }
 
-/// Finds out whether something happens between two bodies now. Returns a time before which nothing does, which
-/// means nothing beyond the earlier window end; nullopt if an event waits, or if one of the two is dirty.
+/// Finds out whether something happens between two bodies now. Returns a time before which nothing does,
+/// which means nothing beyond the earlier window end; nullopt if an event waits, or if one of the two is
+/// dirty.
 Result<std::optional<double>> EventProcessor::check_pair(std::uint32_t a, std::uint32_t b) {
   ++work_.counters.pair_checks;
   const PairCertifier certifier = this->certifier();

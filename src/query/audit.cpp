@@ -65,9 +65,8 @@ class World::Engine::Audit {
     const char* const broken = core()->audit([this](std::uint32_t a, std::uint32_t b) {
       using Claim = core::Core::Claim;
       if (body(a).dirty || body(b).dirty) return Claim::nothing;
-      const bool as_balls =
-          engine_.bodies().may_meet(a, b) && !body(a).is_shaped() && !body(b).is_shaped();
-      return as_balls ? Claim::meet_as_balls : Claim::neighbours;
+      if (a != b && !engine_.bodies().may_meet(a, b)) return Claim::nothing;
+      return body(a).is_shaped() || body(b).is_shaped() ? Claim::neighbours : Claim::meet_as_balls;
     });
     if (broken) find("core", std::string("invariant ") + broken + " of src/core/core.hpp does not hold");
   }
@@ -96,8 +95,7 @@ class World::Engine::Audit {
   }
 
   void check_absence(std::uint32_t number) {
-    if (engine_.is_registered(number))
-      find("registration", name(number) + " is not here but registered");
+    if (engine_.is_registered(number)) find("registration", name(number) + " is not here but registered");
     if (!engine_.contacts().partners_of(number).empty() || engine_.contacts().walls_of(number) != 0)
       find("contact", name(number) + " is not here but touches something");
     if (!engine_.contacts().overlaps_of(number).empty())
@@ -113,7 +111,8 @@ class World::Engine::Audit {
         find("registration", name(number) + " " + *wrong);
     const double end = engine_.box_end(number);
     if (end < now_) find("queue", name(number) + " is in a window that has ended" + times(now_, end));
-    if (!core() && end < engine_.main().epoch_end() && certificates_.of(number, PairCertificate::window_end) > end)
+    if (!core() && end < engine_.main().epoch_end() &&
+        certificates_.of(number, PairCertificate::window_end) > end)
       find("queue", name(number) + " is in a window that is not renewed when it ends");
     if (b.is_sleeping() && !(b.is_at_rest() && b.bound.velocity == Vec3{} && b.largest_acceleration() == 0.0))
       find("registration", name(number) + " rests, but its bound does not stand still");
