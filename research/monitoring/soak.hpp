@@ -11,11 +11,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "kinesphere/monitor/monitor_event.hpp"
+#include "kinesphere/monitor/monitor.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/world.hpp"
-#include "research/monitoring/recorded_sky.hpp"
 
 namespace kinesphere {
 
@@ -44,6 +43,13 @@ struct FaultCounts {
   std::uint64_t outliers = 0;
   std::uint64_t swapped = 0;
   std::uint64_t gaps = 0;
+};
+
+/// A report with its time of arrival.
+struct Delivery {
+  double time = 0.0;
+  TrackId track = 0;
+  TrackReport report{};
 };
 
 /// FaultyReports makes reports. At most one of any three successive reports under one id is wrong.

@@ -14,9 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iostream>
 #include <memory>
-#include <sstream>
 #include <type_traits>
 #include <utility>
 
@@ -175,33 +173,6 @@ std::vector<PairMethod> fcl_methods() {
       fcl_method<FclLinear>("FCL naive", fcl::CCDC_NAIVE, fcl::CCDM_LINEAR)};
 }
 
-std::vector<std::string> fcl_refusals() {
-  const std::pair<const char*, fcl::CCDSolverType> solvers[] = {
-      {"CCDC_NAIVE", fcl::CCDC_NAIVE},
-      {"CCDC_CONSERVATIVE_ADVANCEMENT", fcl::CCDC_CONSERVATIVE_ADVANCEMENT},
-      {"CCDC_RAY_SHOOTING", fcl::CCDC_RAY_SHOOTING},
-      {"CCDC_POLYNOMIAL_SOLVER", fcl::CCDC_POLYNOMIAL_SOLVER}};
-  const fcl::Capsuled capsule(0.1, 1.0);
-  const FclPose from({.start = {{-1, 0, 0}}}, 0.0);
-  const FclPose to({.start = {{1, 0, 0}}}, 0.0);
-  const FclLinear moves = motion_of<FclLinear>(from, to, FclVector::Zero());
-  const FclLinear comes = motion_of<FclLinear>(to, from, FclVector::Zero());
-  std::vector<std::string> refused;
-  // A refusal is a result of -1 and a line to the standard error.
-  std::ostringstream said;
-  std::streambuf* const before = std::cerr.rdbuf(said.rdbuf());
-  for (const auto& [name, solver] : solvers) {
-    FclRequest request;
-    request.ccd_solver_type = solver;
-    request.ccd_motion_type = fcl::CCDM_LINEAR;
-    fcl::ContinuousCollisionResult<double> result;
-    if (fcl::continuousCollide(&capsule, &moves, &capsule, &comes, request, result) < 0.0)
-      refused.emplace_back(name);
-  }
-  std::cerr.rdbuf(before);
-  return refused;
-}
-
 }  // namespace kinesphere::program
 
 #else
@@ -209,7 +180,6 @@ std::vector<std::string> fcl_refusals() {
 namespace kinesphere::program {
 
 std::vector<PairMethod> fcl_methods() { return {}; }
-std::vector<std::string> fcl_refusals() { return {}; }
 
 }  // namespace kinesphere::program
 

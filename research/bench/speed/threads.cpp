@@ -104,14 +104,4 @@ ThreadsRow compare_threads_in_game(int threads, const SpeedSettings& settings) {
   });
 }
 
-std::vector<Verdict> verdicts_of_threads(const std::vector<ThreadsRow>& rows) {
-  std::vector<Verdict> all;
-  for (const ThreadsRow& row : rows) {
-    all.push_back({"6", "run on one thread to a loop", row.scene, "", true, 1.1, row.one_to_loop()});
-    if (row.threads == 2)
-      all.push_back({"6", "times faster on two threads", row.scene, "", false, 1.6, row.one_to_many()});
-  }
-  return all;
-}
-
 }  // namespace kinesphere::program

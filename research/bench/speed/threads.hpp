@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "research/bench/speed/speed_scenes.hpp"
-#include "research/bench/speed/verdicts.hpp"
 
 namespace kinesphere::program {
 
@@ -32,7 +31,7 @@ struct ThreadsRow {
   double cpu_to_one() const;  ///< CPU time of all threads, to that of one
 };
 
-/// The name of the game of research/measures/shooting_game.hpp among the scenes.
+/// The name of the game of research/measures/games.hpp among the scenes.
 constexpr const char* shooting_name = "shooting";
 
 /// Runs the scene in the three ways. Throws ProgramError, also if their hashes differ.
@@ -40,8 +39,5 @@ ThreadsRow compare_threads(const SpeedScene& entry, int threads, const SpeedSett
 
 /// The same for a game in which bodies vanish and appear.
 ThreadsRow compare_threads_in_game(int threads, const SpeedSettings& settings);
-
-/// Returns the verdicts on goal 6.
-std::vector<Verdict> verdicts_of_threads(const std::vector<ThreadsRow>& rows);
 
 }  // namespace kinesphere::program

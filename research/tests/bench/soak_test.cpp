@@ -1,101 +1,11 @@
-// Monitors on recorded tracks: certain verdicts are compared with the exact truth.
+// Monitors, and `kinesphere watch`, on reports with all usual faults: nothing is missed.
 #include <gtest/gtest.h>
 
 #include "program/support.hpp"
-#include "research/monitoring/alarms.hpp"
 #include "research/monitoring/soak.hpp"
-#include "tracks/track_file.hpp"
 
 namespace kinesphere::program::monitoring_test {
 namespace {
-
-struct RecordedSet {
-  std::string name;
-  std::string file;
-  std::string format;
-  double distance;
-  ReportingSettings reporting;
-
-  friend std::ostream& operator<<(std::ostream& out, const RecordedSet& set) { return out << set.name; }
-};
-
-/// Returns the sky of a recording; empty if the recording is not installed.
-std::vector<RecordedSky> sky_of(const std::string& name, const std::string& format) {
-  const std::string file = recorded_file(name);
-  if (file.empty()) return {};
-  TrackOptions options;
-  options.hints.format = format;
-  const TrackSet read = read_tracks({file}, options);
-  std::vector<Track> tracks;
-  for (const RecordedTrack& track : read.tracks) tracks.push_back(track.samples);
-  return {RecordedSky::create(tracks, read.is_plane ? 2 : 3).value()};
-}
-
-class RecordedSkies : public testing::TestWithParam<RecordedSet> {};
-
-TEST_P(RecordedSkies, NothingThatIsCertainIsWrong) {
-  const RecordedSet& set = GetParam();
-  const auto skies = sky_of(set.file, set.format);
-  if (skies.empty()) GTEST_SKIP() << "no recording " << set.file << " (see KINESPHERE_DATA)";
-  const RecordedSky& sky = skies.front();
-  constexpr double tolerance = 1e-3;
-  const auto clearly = sky.within(set.distance * (1.0 - 1e-9)).value();
-  const auto loosely = sky.within((set.distance + tolerance) * (1.0 + 1e-9)).value();
-  for (std::uint64_t seed = 11; seed < 13; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    ReportingSettings reporting = set.reporting;
-    reporting.seed = seed;
-    const std::vector<Delivery> deliveries = sky.deliveries(reporting);
-    Monitor monitor = Monitor::create({.dimensions = sky.dimensions(),
-                                       .start_time = deliveries.front().time,
-                                       .classes = {sky.promise()},
-                                       .separations = {{0, 0, {Separation::sphere(set.distance)}}},
-                                       .tolerance = tolerance})
-                          .value();
-    const VerdictHistory history = watch(monitor, sky, deliveries);
-    const Correctness correctness = correctness_of(history, sky, clearly, loosely);
-    EXPECT_EQ(correctness.wrong_time, 0.0);
-    EXPECT_GT(correctness.within_time, 10.0);
-    EXPECT_LT(correctness.undecided_time, 0.7 * correctness.pair_time);
-    const AlarmScore score = score_of(alarms_of(history, sky), clearly, 0.0);
-    EXPECT_GT(score.approaches, 400u);
-    EXPECT_EQ(score.missed + score.late, 0u);
-    EXPECT_EQ(monitor.counters().contradictions, 0u);
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    , RecordedSkies,
-    testing::Values(
-        RecordedSet{"students",
-                    "ucy_students03/ucy_students03_obsmat.txt.gz",
-                    "ucy",
-                    0.5,
-                    {.interval = 0.8, .delay = 0.3, .position_error = 0.1, .velocity_error = 0.2}},
-        RecordedSet{"bottleneck",
-                    "pedpy_bottleneck/pedpy_bottleneck_040_c_56_h-.txt.gz",
-                    "",
-                    0.4,
-                    {.interval = 0.4, .delay = 0.1, .position_error = 0.05, .velocity_error = 0.2}},
-        RecordedSet{"mosquitoes",
-                    "mosquito3d/anopheles_swarm_splined.csv.gz",
-                    "",
-                    0.1,
-                    {.interval = 0.1, .delay = 0.04, .position_error = 0.005, .velocity_error = 0.02}}),
-    [](const auto& set) { return set.param.name; });
-
-TEST(RecordedPolling, AFifthOfTenHertzKeepsEveryPairDecided) {
-  const auto skies = sky_of("ucy_students03/ucy_students03_obsmat.txt.gz", "ucy");
-  if (skies.empty()) GTEST_SKIP() << "no recording of students (see KINESPHERE_DATA)";
-  const RecordedSky& sky = skies.front();
-  const PollingSettings settings{.distance = 1.5, .tolerance = 1.5};
-  const Polling needed = poll_when_needed(sky, settings);
-  EXPECT_EQ(needed.undecided_time, 0.0);
-  EXPECT_LT(static_cast<double>(needed.reports), 0.2 * 10.0 * sky.track_time());
-  const std::uint64_t floor = polling_floor(sky, settings, 0.01);
-  EXPECT_LT(static_cast<double>(needed.reports), 1.35 * static_cast<double>(floor));
-  EXPECT_GT(needed.reports, floor);
-}
 
 TEST(MonitorSoak, MissesNothingWhateverGoesWrong) {
   SoakSettings settings;
