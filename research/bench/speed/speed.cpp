@@ -69,15 +69,14 @@ void bench_threads(const BenchOptions& options, const std::vector<SpeedScene>& s
   }
   if (options.has(shooting_name)) rows.push_back(compare_threads_in_game(*options.threads, settings));
   for (const ThreadsRow& row : rows) {
-    const auto seconds = [&](double ThreadsTurn::*way) {
-      std::vector<double> all;
-      all.reserve(row.turns.size());
-      for (const ThreadsTurn& turn : row.turns) all.push_back(turn.*way);
-      return median(std::move(all));
-    };
+    using Turn = const ThreadsTurn&;
     table.row({row.scene, std::uint64_t{row.bodies}, static_cast<std::uint64_t>(row.threads),
-               seconds(&ThreadsTurn::loop), seconds(&ThreadsTurn::one), seconds(&ThreadsTurn::many),
-               row.one_to_loop(), row.one_to_many(), row.cpu_to_one(), row.events,
+               row.median_of([](Turn turn) { return turn.loop; }),
+               row.median_of([](Turn turn) { return turn.one; }),
+               row.median_of([](Turn turn) { return turn.many; }),
+               row.median_of([](Turn turn) { return turn.one / turn.loop; }),
+               row.median_of([](Turn turn) { return turn.one / turn.many; }),
+               row.median_of([](Turn turn) { return turn.many_cpu / turn.one_cpu; }), row.events,
                fmt::format("{:016x}", row.hash)});
   }
   report.table("threads", table);

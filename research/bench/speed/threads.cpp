@@ -67,27 +67,7 @@ ThreadsRow compare(ThreadsRow row, const SpeedSettings& settings, const Time& ti
   return row;
 }
 
-template <class Quotient>
-double median_of(const std::vector<ThreadsTurn>& turns, Quotient quotient) {
-  std::vector<double> quotients;
-  quotients.reserve(turns.size());
-  for (const ThreadsTurn& turn : turns) quotients.push_back(quotient(turn));
-  return median(std::move(quotients));
-}
-
 }  // namespace
-
-double ThreadsRow::one_to_loop() const {
-  return median_of(turns, [](const ThreadsTurn& turn) { return turn.one / turn.loop; });
-}
-
-double ThreadsRow::one_to_many() const {
-  return median_of(turns, [](const ThreadsTurn& turn) { return turn.one / turn.many; });
-}
-
-double ThreadsRow::cpu_to_one() const {
-  return median_of(turns, [](const ThreadsTurn& turn) { return turn.many_cpu / turn.one_cpu; });
-}
 
 ThreadsRow compare_threads(const SpeedScene& entry, int threads, const SpeedSettings& settings) {
   const Scene scene = entry.make(entry.response);

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "research/bench/measurement.hpp"
 #include "research/bench/speed/speed_scenes.hpp"
 
 namespace kinesphere::program {
@@ -26,9 +28,13 @@ struct ThreadsRow {
   std::uint64_t events;
   std::uint64_t hash;  ///< equal in all ways
 
-  double one_to_loop() const;  ///< quotient of times; the median of the turns
-  double one_to_many() const;
-  double cpu_to_one() const;  ///< CPU time of all threads, to that of one
+  /// Returns the median of quotient(turn) over the turns.
+  template <class Quotient>
+  double median_of(Quotient quotient) const {
+    std::vector<double> quotients;
+    for (const ThreadsTurn& turn : turns) quotients.push_back(quotient(turn));
+    return median(std::move(quotients));
+  }
 };
 
 /// The name of the game of research/measures/games.hpp among the scenes.

@@ -15,9 +15,9 @@ TEST(MonitorSoak, MissesNothingWhateverGoesWrong) {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     settings.faults.seed = seed;
     const Soak result = soak(settings);
-    EXPECT_EQ(result.missed, 0u) << "seed " << seed;
-    EXPECT_EQ(result.wrongly_within, 0u) << "seed " << seed;
-    EXPECT_GT(result.approaches, 300u);
+    EXPECT_EQ(result.verdicts.missed, 0u) << "seed " << seed;
+    EXPECT_EQ(result.verdicts.wrongly_within, 0u) << "seed " << seed;
+    EXPECT_GT(result.verdicts.approaches, 300u);
     EXPECT_GT(result.faults.outliers, 200u);
     EXPECT_GT(result.faults.swapped, 200u);
     EXPECT_GT(result.faults.gaps, 100u);
