@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds `kinesphere-bench` and measures the library against its rivals: tables and verdicts go to research/results/, into
+# Builds `kinesphere-bench` and measures the library against its rivals: tables go to research/results/, into
 # a folder named after processor, cores and compiler. Takes half an hour; keep the machine quiet meanwhile.
 # Arguments are passed on to `kinesphere-bench speed`, for instance: bench.sh --full
 set -euo pipefail

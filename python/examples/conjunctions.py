@@ -1,12 +1,11 @@
 """Conjunctions of satellites: who comes near whom within a day, with nothing missed.
 
     conjunctions.py [catalogue.tle[.gz]] [--distance KM] [--hours H] [--every N] [--threads N]
-                    [--table FILE.csv] [--cdm FOLDER] [--arcs FILE]
+                    [--table FILE.csv] [--cdm FOLDER]
 
 python3-sgp4 propagates the element sets, and polynomials are fitted to its positions. PolynomialPaths finds all
 approaches of the polynomials. Without a catalogue the script makes a few elements of its own. --cdm writes a
-Conjunction Data Message (CCSDS 508.0-B-1, KVN) for each of the ten nearest. --arcs writes the polynomials for
-`kinesphere-bench paths`, which times the search.
+Conjunction Data Message (CCSDS 508.0-B-1, KVN) for each of the ten nearest.
 """
 
 import argparse
@@ -118,15 +117,6 @@ def fit(satellites: list[Any], seconds: float, start: tuple[float, float]) -> ks
     )
 
 
-def write_arcs(paths: ks.PolynomialPaths, path: Path) -> None:
-    """The format that research/bench/path_file.hpp describes."""
-    with open(path, "wb") as file:
-        file.write(b"KSARCS01")
-        np.array([len(paths.errors), len(paths.bodies), terms], np.int64).tofile(file)
-        for numbers in (paths.errors, paths.bodies, paths.begins, paths.ends, paths.coefficients):
-            numbers.tofile(file)
-
-
 def date_of(start: tuple[float, float], seconds: float) -> str:
     at = datetime(2000, 1, 1, 12, tzinfo=timezone.utc) + timedelta(
         days=start[0] - 2451545.0 + start[1], seconds=seconds
@@ -213,7 +203,6 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--table", type=Path)
     parser.add_argument("--cdm", type=Path)
-    parser.add_argument("--arcs", type=Path)
     options = parser.parse_args()
 
     satellites = (read(options.catalogue) if options.catalogue else invented())[:: options.every]
@@ -221,8 +210,6 @@ def main() -> None:
     begun = time.process_time()
     paths = fit(satellites, options.hours * 3600, start)
     fitted = time.process_time()
-    if options.arcs:
-        write_arcs(paths, options.arcs)
     found = paths.approaches(options.distance, threads=options.threads)
     cost = (time.process_time() - fitted) * 1000 / (len(satellites) * options.hours / 24)
     minima = found.minima

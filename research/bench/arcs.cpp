@@ -1,14 +1,9 @@
 #include "research/bench/arcs.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <numbers>
 
-#include "base/program_error.hpp"
 #include "kinesphere/random.hpp"
 
 namespace kinesphere::program {
@@ -93,37 +88,6 @@ void append_arc(const Ellipse& ellipse, std::uint32_t body, double begin, double
   for (const Values& axis : values) fit(axis, arcs.coefficients);
 }
 
-/// A file of known length, read from its begin.
-class ArcFile {
- public:
-  explicit ArcFile(const std::string& path) : path_(path), file_(path, std::ios::binary | std::ios::ate) {
-    if (!file_) throw ProgramError(fmt::format("{}: cannot be read", path));
-    left_ = static_cast<std::uint64_t>(file_.tellg());
-    file_.seekg(0);
-  }
-
-  template <class Element>
-  void read(std::vector<Element>& elements, std::uint64_t count) {
-    if (count > left_ / sizeof(Element)) refuse("ends too early");
-    elements.resize(count);
-    file_.read(reinterpret_cast<char*>(elements.data()),
-               static_cast<std::streamsize>(count * sizeof(Element)));
-    left_ -= count * sizeof(Element);
-  }
-  void expect_end() const {
-    if (left_ > 0) refuse("goes on after the last arc");
-  }
-  [[noreturn]] void refuse(const char* why) const {
-    throw ProgramError(
-        fmt::format("{}: expected arcs of conjunctions.py --arcs, but the file {}", path_, why));
-  }
-
- private:
-  std::string path_;
-  std::ifstream file_;
-  std::uint64_t left_ = 0;
-};
-
 }  // namespace
 
 PolynomialPaths Arcs::paths() const {
@@ -140,25 +104,6 @@ PolynomialPaths Arcs::paths() const {
 std::size_t Arcs::bytes() const {
   return sizeof(double) * (errors.size() + begins.size() + ends.size() + coefficients.size()) +
          sizeof(std::uint32_t) * bodies.size();
-}
-
-Arcs read_arcs(const std::string& path) {
-  ArcFile file(path);
-  std::vector<char> mark;
-  std::vector<std::uint64_t> counts;
-  file.read(mark, 8);
-  if (std::memcmp(mark.data(), "KSARCS01", 8) != 0) file.refuse("begins otherwise");
-  file.read(counts, 3);
-  const std::uint64_t objects = counts[0], arcs = counts[1], terms = counts[2];
-  if (terms < 1 || terms > PolynomialPaths::most_terms) file.refuse("has a wrong number of terms");
-  Arcs read{.terms = terms};
-  file.read(read.errors, objects);
-  file.read(read.bodies, arcs);
-  file.read(read.begins, arcs);
-  file.read(read.ends, arcs);
-  file.read(read.coefficients, 3 * terms * arcs);
-  file.expect_end();
-  return read;
 }
 
 Arcs satellite_arcs(std::uint32_t satellites, double seconds, std::uint64_t seed) {

@@ -1,9 +1,8 @@
-// Arcs of polynomials: from a file, or of satellites that are drawn at random.
+// Arcs of polynomials of satellites that are drawn at random.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "kinesphere/approaches.hpp"
@@ -23,11 +22,6 @@ struct Arcs {
   /// Returns the memory that the numbers take (bytes).
   std::size_t bytes() const;
 };
-
-/// Reads the file that python/examples/conjunctions.py --arcs writes: "KSARCS01", three 64-bit integers
-/// (objects, arcs, terms), and in the machine's format the members above, without `terms`, in their order.
-/// Throws ProgramError if it is none.
-Arcs read_arcs(const std::string& path);
 
 /// Satellites of the earth on Kepler's ellipses, in km and seconds: as in catalogues most are low, in shells
 /// of a few inclinations, and some go far out. An arc is at most 0.65 radians long at the speed of the

@@ -18,12 +18,6 @@ Command add_gas(CLI::App& app);
 Command add_frames(CLI::App& app);
 /// First contacts of capsules, clusters of balls and boxes that turn, beside FCL.
 Command add_shapes(CLI::App& app);
-/// A table of vessels' reports, for `kinesphere tracks`: lines of id, time, x, y and z by time, under a
-/// header.
-Command add_vessels(CLI::App& app);
-/// Certain statements about recorded tracks from few, late and noisy reports, beside alarms that extrapolate
-/// in straight lines; and the number of reports that keep every pair decided.
-Command add_monitoring(CLI::App& app);
 /// A long run of a monitor on faulty reports, compared with the truth. The exit code says if anything was
 /// missed or wrong.
 Command add_soak(CLI::App& app);

@@ -6,9 +6,8 @@
 int main(int argc, char** argv) {
   using namespace kinesphere::program;
   const auto add_commands = [](CLI::App& app) -> std::vector<Command> {
-    return {add_paper(app),  add_speed(app),   add_gas(app),        add_frames(app),
-            add_shapes(app), add_vessels(app), add_monitoring(app), add_soak(app),
-            add_paths(app),  add_run(app),     add_verify(app)};
+    return {add_paper(app), add_speed(app), add_gas(app), add_frames(app), add_shapes(app),
+            add_soak(app),  add_paths(app), add_run(app), add_verify(app)};
   };
   return run_program({.name = "kinesphere-bench",
                       .description = "Measurements of Kinesphere, and comparisons with what was published.",

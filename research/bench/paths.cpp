@@ -28,7 +28,6 @@ namespace {
 constexpr double seconds_in_hour = 3600.0, hours_in_day = 24.0;
 
 struct PathOptions {
-  std::string file;  ///< arcs; empty: satellites drawn at random
   std::uint32_t satellites = 10'000;
   std::uint64_t seed = 1;
   double hours = 24.0;
@@ -107,12 +106,8 @@ void print_turns(const Turns& turns, double object_days) {
 
 int bench_paths(const PathOptions& options) {
   const double seconds = options.hours * seconds_in_hour;
-  const Arcs arcs = options.file.empty() ? satellite_arcs(options.satellites, seconds, options.seed)
-                                         : read_arcs(options.file);
-  if (arcs.begins.empty())
-    throw ProgramError(fmt::format("{}: expected arcs, but there are none", options.file));
-  const double end = *std::ranges::min_element(arcs.begins) + seconds;
-  const Turns turns = take_turns(arcs, options, end);
+  const Arcs arcs = satellite_arcs(options.satellites, seconds, options.seed);
+  const Turns turns = take_turns(arcs, options, seconds);
   const Search& first = turns.searches[0].front();
   print("{} objects, {} arcs of {} terms; {} h within {} km: {} approaches, {} minima, in steps of {} s\n",
         grouped(arcs.errors.size()), grouped(arcs.begins.size()), arcs.terms, options.hours, options.distance,
@@ -131,16 +126,13 @@ Command add_paths(CLI::App& app) {
   const auto options = std::make_shared<PathOptions>();
   CLI::App* const command =
       app.add_subcommand("paths", "Time the search for approaches of bodies on known paths");
-  command->add_option("FILE", options->file,
-                      "Arcs that python/examples/conjunctions.py --arcs has written; without it satellites "
-                      "are drawn at random");
-  command->add_option("--satellites", options->satellites, "How many are drawn")
+  command->add_option("--satellites", options->satellites, "How many are drawn at random")
       ->check(whole_number(1'000'000, 2))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of the satellites")
       ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
       ->capture_default_str();
-  command->add_option("--hours", options->hours, "How long to search, from the begin of the arcs")
+  command->add_option("--hours", options->hours, "How long to search")
       ->check(finite_number() & CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--distance", options->distance, "Within which bodies approach (km)")

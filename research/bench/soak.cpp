@@ -122,6 +122,18 @@ ReadAlerts read_alerts(const std::string& path, const SoakSettings& settings, do
   return read;
 }
 
+void add_rows(Summary& summary, const VerdictCounts& found, const SoakSettings& settings) {
+  summary.row("approaches", grouped(found.approaches),
+              fmt::format("nearer than {}", number(settings.distance)));
+  summary.row("  missed", grouped(found.missed), "told to be apart at some time");
+  summary.row("warnings", grouped(found.warnings), "of pairs that were apart before");
+  summary.row("wrongly within", grouped(found.wrongly_within));
+}
+
+int exit_code_of(const VerdictCounts& found) {
+  return found.missed == 0 && found.wrongly_within == 0 ? exit_fine : exit_disagreement;
+}
+
 int compare_alerts(const SoakOptions& options) {
   const SoakSettings& settings = options.settings;
   FaultyReports reports(settings.faults);
@@ -132,13 +144,9 @@ int compare_alerts(const SoakOptions& options) {
   check.compare(end, alerts.verdicts);
   Summary summary;
   summary.row("alerts", grouped(alerts.lines));
-  summary.row("warnings", grouped(check.warnings), "of pairs that were apart before");
-  summary.row("approaches", grouped(check.approaches),
-              fmt::format("nearer than {}", number(settings.distance)));
-  summary.row("  missed", grouped(check.missed), "told to be apart at some time");
-  summary.row("wrongly within", grouped(check.wrongly_within));
+  add_rows(summary, check.counts(), settings);
   fmt::print("{}", summary.text());
-  return check.missed == 0 && check.wrongly_within == 0 ? exit_fine : exit_disagreement;
+  return exit_code_of(check.counts());
 }
 
 int bench_soak(const SoakOptions& options) {
@@ -162,11 +170,7 @@ int bench_soak(const SoakOptions& options) {
   summary.row("gaps", grouped(gaps), "in which a track was silent");
   summary.row("contradictions", grouped(result.counters.contradictions), "that the monitor has seen");
   summary.space();
-  summary.row("approaches", grouped(result.approaches),
-              fmt::format("nearer than {}", number(settings.distance)));
-  summary.row("  missed", grouped(result.missed), "told to be apart at some time");
-  summary.row("warnings", grouped(result.warnings), "of pairs that were apart before");
-  summary.row("wrongly within", grouped(result.wrongly_within));
+  add_rows(summary, result.verdicts, settings);
   summary.row("open in the end", grouped(result.open));
   summary.space();
   summary.row("looks", number(double(result.counters.rechecks) / double(reports)),
@@ -177,7 +181,7 @@ int bench_soak(const SoakOptions& options) {
       "memory", grouped(result.memory / 1024),
       fmt::format("kB in the end, {} after a quarter; with the truth", grouped(result.memory_early / 1024)));
   fmt::print("{}", summary.text());
-  return result.missed == 0 && result.wrongly_within == 0 ? exit_fine : exit_disagreement;
+  return exit_code_of(result.verdicts);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Search for the boxes that overlap a box, whatever their sizes.
+// Search for the boxes that overlap, whatever their sizes.
 #pragma once
 
 #include <algorithm>
@@ -22,14 +22,8 @@ class BoxGrid {
   /// Replaces all boxes, which must be finite. Cost: O(n).
   void build(const std::vector<Entry>& entries);
 
-  /// Calls visit(body) once for each box that overlaps this one, touching included. Cost: the cells that the
-  /// box meets in each grid, and the boxes in them.
-  template <class Visit>
-  void for_each_overlap(const Box& box, Visit visit) const {
-    for (const Level& level : levels_) level.for_each_overlap(box, visit);
-  }
-
-  /// Calls visit(a, b) once for each two boxes that overlap, of which the larger number is a.
+  /// Calls visit(a, b) once for each two boxes that overlap, touching included; a is the larger number. Cost:
+  /// the cells that each box meets in its own grid and in those of larger boxes, and the boxes in them.
   template <class Visit>
   void for_each_pair(Visit visit) const {
     for (std::size_t level = 0; level < levels_.size(); ++level) {

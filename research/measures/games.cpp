@@ -194,10 +194,7 @@ class ShootingGame {
     const Response response = respond_in_shooting(event);
     if (response.second_action == BodyAction::remove && event.second_user_data == ball) ++vanished_;
     if (response.first_action == BodyAction::remove && event.first_user_data == ball) ++vanished_;
-    if (response.first_action != BodyAction::none || response.second_action != BodyAction::none)
-      ++result_.hits;
     if (!response.stop) return;
-    ++result_.stops;
     for (int k = 0; k < fragments_of_rock; ++k)
       add(fragment, {event.point, 2 * ball_speed * random_.unit_vector()});
     add(rock, {anywhere(), {}});

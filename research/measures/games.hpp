@@ -40,9 +40,7 @@ struct ShootingResult {
   double seconds = 0.0;      ///< real time of all frames, from when all balls are in
   double cpu_seconds = 0.0;  ///< the same of all threads
   std::uint64_t events = 0;
-  std::uint64_t hits = 0;   ///< bullets and balls that vanished
-  std::uint64_t stops = 0;  ///< rocks that burst: there the world stops, and fragments are added
-  std::uint64_t hash = 0;   ///< of all events
+  std::uint64_t hash = 0;  ///< of all events
 };
 
 /// Plays the game by World::run, with or without workers. Throws BadResult where balls do not fit into the

@@ -134,8 +134,8 @@ void VerdictCheck::compare(double until, std::span<const MonitorEvent> reported)
 /// parted.
 void VerdictCheck::approach(std::uint64_t pair, double time) {
   if (time < begin_) return;
-  ++approaches;
-  if (!verdicts_.contains(pair)) ++missed;
+  ++counts_.approaches;
+  if (!verdicts_.contains(pair)) ++counts_.missed;
 }
 
 void VerdictCheck::begin() {
@@ -160,21 +160,21 @@ void VerdictCheck::take(const Event& event) {
   } else {
     truly_within_.erase(pair);
     const auto verdict = verdicts_.find(pair);
-    if (verdict != verdicts_.end() && verdict->second == Verdict::within) ++wrongly_within;
+    if (verdict != verdicts_.end() && verdict->second == Verdict::within) ++counts_.wrongly_within;
   }
 }
 
 void VerdictCheck::take(const MonitorEvent& event) {
   if (event.kind != MonitorEventKind::verdict) return;
   const std::uint64_t pair = key(event.first, event.second);
-  if (event.before == Verdict::apart) ++warnings;
+  if (event.before == Verdict::apart) ++counts_.warnings;
   if (event.verdict == Verdict::apart) {
     verdicts_.erase(pair);
-    if (begun_ && truly_near_.contains(pair)) ++missed;
+    if (begun_ && truly_near_.contains(pair)) ++counts_.missed;
     return;
   }
   verdicts_[pair] = event.verdict;
-  if (event.verdict == Verdict::within && !truly_within_.contains(pair)) ++wrongly_within;
+  if (event.verdict == Verdict::within && !truly_within_.contains(pair)) ++counts_.wrongly_within;
 }
 
 Soak soak(const SoakSettings& settings, const std::function<void(std::uint64_t)>& progress) {
@@ -209,10 +209,7 @@ Soak soak(const SoakSettings& settings, const std::function<void(std::uint64_t)>
   result.faults = reports.counts();
   result.counters = monitor.counters();
   result.time = monitor.time();
-  result.approaches = check.approaches;
-  result.missed = check.missed;
-  result.warnings = check.warnings;
-  result.wrongly_within = check.wrongly_within;
+  result.verdicts = check.counts();
   result.memory = peak_memory();
   result.open = monitor.open_pairs().size();
   return result;

@@ -11,11 +11,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "kinesphere/monitor/monitor_event.hpp"
+#include "kinesphere/monitor/monitor.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/world.hpp"
-#include "research/monitoring/recorded_sky.hpp"
 
 namespace kinesphere {
 
@@ -44,6 +43,13 @@ struct FaultCounts {
   std::uint64_t outliers = 0;
   std::uint64_t swapped = 0;
   std::uint64_t gaps = 0;
+};
+
+/// A report with its time of arrival.
+struct Delivery {
+  double time = 0.0;
+  TrackId track = 0;
+  TrackReport report{};
 };
 
 /// FaultyReports makes reports. At most one of any three successive reports under one id is wrong.
@@ -89,6 +95,14 @@ class FaultyReports {
   FaultCounts counts_;
 };
 
+/// What a comparison of verdicts with the truth has found, from the time at which all tracks have reported.
+struct VerdictCounts {
+  std::uint64_t approaches = 0;      ///< true approaches
+  std::uint64_t missed = 0;          ///< approaches that were reported as apart at some time while near
+  std::uint64_t warnings = 0;        ///< changes of a pair from apart to another verdict
+  std::uint64_t wrongly_within = 0;  ///< pairs reported as certainly near when they were not
+};
+
 /// VerdictCheck compares the verdicts of one separation, for tracks numbered from 0.
 class VerdictCheck {
  public:
@@ -100,10 +114,7 @@ class VerdictCheck {
   /// continue earlier ones.
   void compare(double until, std::span<const MonitorEvent> reported);
 
-  std::uint64_t approaches = 0;      ///< true approaches
-  std::uint64_t missed = 0;          ///< approaches that were reported as apart at some time while near
-  std::uint64_t warnings = 0;        ///< changes of a pair from apart to another verdict
-  std::uint64_t wrongly_within = 0;  ///< pairs reported as certainly near when they were not
+  const VerdictCounts& counts() const { return counts_; }
 
  private:
   static constexpr double margin = 1e-2;
@@ -113,6 +124,7 @@ class VerdictCheck {
   void take(const Event& event);
   void take(const MonitorEvent& event);
 
+  VerdictCounts counts_;
   double near_;
   double far_;
   double begin_;
@@ -134,15 +146,12 @@ struct SoakSettings {
 struct Soak {
   FaultCounts faults;
   MonitorCounters counters;
-  double time = 0.0;                 ///< simulated time
-  double monitor_seconds = 0.0;      ///< CPU time in calls of the monitor
-  std::uint64_t approaches = 0;      ///< true approaches, from the time at which all tracks have reported
-  std::uint64_t missed = 0;          ///< approaches that were reported as apart at some time while near
-  std::uint64_t warnings = 0;        ///< changes of a pair from apart to another verdict
-  std::uint64_t wrongly_within = 0;  ///< pairs reported as certainly near when they were not
-  std::uint64_t memory_early = 0;    ///< peak memory of the process (bytes) after a quarter of the reports
-  std::uint64_t memory = 0;          ///< peak memory of the process (bytes) at the end
-  std::uint64_t open = 0;            ///< pairs at the end that are not apart
+  double time = 0.0;             ///< simulated time
+  double monitor_seconds = 0.0;  ///< CPU time in calls of the monitor
+  VerdictCounts verdicts;
+  std::uint64_t memory_early = 0;  ///< peak memory of the process (bytes) after a quarter of the reports
+  std::uint64_t memory = 0;        ///< peak memory of the process (bytes) at the end
+  std::uint64_t open = 0;          ///< pairs at the end that are not apart
 };
 
 /// Runs the soak. `progress(reports)` is called now and then.

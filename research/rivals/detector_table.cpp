@@ -18,27 +18,27 @@ const std::vector<DetectorEntry>& detector_table() {
   using Moves = const Motion&;
   using Settings = const DetectorSettings&;
   static const std::vector<DetectorEntry> table{
-      {"world", "the engine of this library", false, false,
+      {"world", false, false,
        [](Definition world, Moves motion, Settings) { return make_world_detector(world, motion); }},
-      {"paper", "Kim, Guibas and Shin 2005: events on hierarchical grids", false, false,
+      {"paper", false, false,
        [](Definition world, Moves motion, Settings settings) {
          return make_paper_detector(world, motion, settings.paper);
        }},
-      {"ballistic", "Kim, Guibas and Shin 1998: its ancestor, for ballistic bodies", false, true,
+      {"ballistic", false, true,
        [](Definition world, Moves motion, Settings) { return make_ballistic_detector(world, motion); }},
-      {"hubbard", "Hubbard 1995: space-time bounds and a sweep", false, false,
+      {"hubbard", false, false,
        [](Definition world, Moves motion, Settings) { return make_hubbard_detector(world, motion); }},
-      {"hayward", "Hayward and others 1995: a safe interval for every pair", false, false,
+      {"hayward", false, false,
        [](Definition world, Moves motion, Settings) { return make_hayward_detector(world, motion); }},
-      {"fixed-step", "a grid at every time step", true, false,
+      {"fixed-step", true, false,
        [](Definition world, Moves motion, Settings settings) {
          return make_fixed_step_detector(world, motion, *settings.step, FixedStepSearch::grid);
        }},
-      {"brute-force", "every pair at every time step", true, false,
+      {"brute-force", true, false,
        [](Definition world, Moves motion, Settings settings) {
          return make_fixed_step_detector(world, motion, *settings.step, FixedStepSearch::all_pairs);
        }},
-      {"oracle", "exact, from the trajectories themselves", false, false,
+      {"oracle", false, false,
        [](Definition world, Moves motion, Settings) { return make_oracle(world, motion); }},
   };
   return table;

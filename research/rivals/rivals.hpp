@@ -64,9 +64,8 @@ struct DetectorSettings {
 /// A detector with its name and properties.
 struct DetectorEntry {
   std::string_view name;
-  std::string_view description;  ///< one line
-  bool takes_step;               ///< tests at fixed steps, so it may miss contacts
-  bool ballistic_only;           ///< refuses bodies with an acceleration limit
+  bool takes_step;      ///< tests at fixed steps, so it may miss contacts
+  bool ballistic_only;  ///< refuses bodies with an acceleration limit
   Result<std::unique_ptr<Detector>> (*make)(const WorldDefinition& definition, const Motion& motion,
                                             const DetectorSettings& settings);
 };

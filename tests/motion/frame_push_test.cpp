@@ -1,8 +1,6 @@
 // Frames pushed to a world: new velocities are known there, and entries of removed bodies are found out.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -13,6 +11,7 @@
 #include "kinesphere/motion/frame_motion.hpp"
 #include "kinesphere/random.hpp"
 #include "support/expect_error.hpp"
+#include "support/straight_frames.hpp"
 
 namespace kinesphere::frame_push_test {
 namespace {
@@ -163,8 +162,8 @@ TEST(PushedFrames, FindOutTheEntryOfARemovedBody) {
 /// A game with bodies that come, turn, jump and go. Truth: the smallest distance of each pair on the straight
 /// lines of a frame.
 TEST(PushedFrames, LoseAndInventNoContactWhereBodiesComeAndGo) {
-  constexpr double touch = 2.0, margin = 1e-5;
-  std::uint64_t met = 0, apart = 0, reused = 0;
+  StraightFrames truth(2.0, 1e-5);
+  std::uint64_t reused = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
@@ -196,30 +195,19 @@ TEST(PushedFrames, LoseAndInventNoContactWhereBodiesComeAndGo) {
         game.places[body] += velocities[body];
         if (norm(game.places[body]) > 30.0) game.places[body] = anywhere();
       }
-      std::vector<std::vector<bool>> begun(game.ids.size(), std::vector<bool>(game.ids.size()));
+      BegunPairs begun(game.ids.size(), std::vector<bool>(game.ids.size()));
       for (const Event& event : game.frame()) {
         const auto first = game.bodies.find(event.first)->number,
                    second = game.bodies.find(event.second)->number;
         begun[first][second] = begun[second][first] = true;
       }
-      for (std::uint32_t a = 0; a < game.ids.size(); ++a)
-        for (std::uint32_t b = a + 1; b < game.ids.size(); ++b) {
-          if (!game.frames.contains(a) || !game.frames.contains(b)) continue;
-          const Vec3 from = before[b] - before[a], way = game.places[b] - game.places[a] - from;
-          const double speed = norm_squared(way);
-          const double nearest = speed > 0 ? std::clamp(-dot(from, way) / speed, 0.0, 1.0) : 0.0;
-          const double distance = norm(from + way * nearest);
-          if (norm(from) < touch + margin) continue;  // in touch since an earlier frame, or as it came
-          met += distance < touch - margin ? 1 : 0;
-          apart += distance > touch + margin ? 1 : 0;
-          if (std::abs(distance - touch) > margin) {
-            EXPECT_EQ(begun[a][b], distance < touch) << a << ' ' << b << " in frame " << frame;
-          }
-        }
+      SCOPED_TRACE("frame " + std::to_string(frame));
+      truth.expect(before, game.places, begun,
+                   [&](std::uint32_t body) { return game.frames.contains(body); });
     }
   }
-  EXPECT_GT(met, 200u);
-  EXPECT_GT(apart, 10000u);
+  EXPECT_GT(truth.met, 200u);
+  EXPECT_GT(truth.apart, 10000u);
   EXPECT_GT(reused, 50u);
 }
 

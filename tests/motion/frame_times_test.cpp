@@ -17,6 +17,7 @@
 #include "kinesphere/random.hpp"
 #include "kinesphere/simulation.hpp"
 #include "support/expect_error.hpp"
+#include "support/straight_frames.hpp"
 
 namespace kinesphere::frame_times_test {
 namespace {
@@ -183,8 +184,8 @@ struct Walker {
 /// Random games whose bodies keep their limits in frames of random lengths, some longer than the interval: no
 /// report contradicts an earlier one, and contacts are those of the straight lines.
 TEST(FrameTimes, LoseAndInventNoContact) {
-  constexpr double touch = 1.0, tolerance = 1e-4, margin = 2e-4;
-  std::uint64_t met = 0, apart = 0;
+  constexpr double touch = 1.0, tolerance = 1e-4;
+  StraightFrames truth(touch, 2e-4);
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
@@ -231,7 +232,7 @@ TEST(FrameTimes, LoseAndInventNoContact) {
         bodies.push(world, frames, places, time).value();
       }
       const double from_time = frames.previous_time(), length = time - from_time;
-      std::vector<std::vector<bool>> begun(count, std::vector<bool>(count));
+      BegunPairs begun(count, std::vector<bool>(count));
       for (int part = 1; part <= 4; ++part) {
         const double stop = part == 4 ? time : from_time + 0.25 * part * length;
         while (const auto event = world.advance(stop, bodies.probe()).value()) {
@@ -244,23 +245,13 @@ TEST(FrameTimes, LoseAndInventNoContact) {
         const std::uint32_t a = random.bits() % count, b = random.bits() % count;
         if (a != b) world.certificates(bodies.probe()).distance_limits(ids[a], ids[b], stop).value();
       }
-      for (std::uint32_t a = 0; a < count; ++a)
-        for (std::uint32_t b = a + 1; b < count; ++b) {
-          const Vec3 from = before[b] - before[a], way = places[b] - places[a] - from;
-          const double speed = norm_squared(way);
-          const double nearest = speed > 0 ? std::clamp(-dot(from, way) / speed, 0.0, 1.0) : 0.0;
-          const double distance = norm(from + way * nearest);
-          if (norm(from) < touch + margin) continue;
-          met += distance < touch - margin ? 1 : 0;
-          apart += distance > touch + margin ? 1 : 0;
-          if (std::abs(distance - touch) > margin) {
-            ASSERT_EQ(begun[a][b], distance < touch) << a << ' ' << b << " in frame " << frame;
-          }
-        }
+      SCOPED_TRACE("frame " + std::to_string(frame));
+      truth.expect(before, places, begun, [](std::uint32_t) { return true; });
+      if (HasFailure()) return;
     }
   }
-  EXPECT_GT(met, 500u);
-  EXPECT_GT(apart, 50000u);
+  EXPECT_GT(truth.met, 500u);
+  EXPECT_GT(truth.apart, 50000u);
 }
 
 /// A copy, and a motion that has read the bodies of another one, inform the world when the original does.

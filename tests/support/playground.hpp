@@ -85,6 +85,16 @@ class Playground {
     restart(id);
     courses_[id.index].state.position = position;
   }
+  /// Changes the true state without a call of the world.
+  void set_state(BodyId id, const State& state) {
+    set_position(id, state.position);
+    set_velocity_unseen(id, state.velocity);
+  }
+  /// Changes the true state, and calls the world.
+  void teleport(BodyId id, const State& state) {
+    set_state(id, state);
+    world.teleport(id, state).value();
+  }
   void steer(BodyId id, const Vec3& acceleration) {
     restart(id);
     courses_[id.index].acceleration = acceleration;

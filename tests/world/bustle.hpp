@@ -67,11 +67,6 @@ class Bustle : public Crowd {
     }
   }
 
-  void place(BodyId id, const State& state) {
-    set_position(id, state.position);
-    set_velocity_unseen(id, state.velocity);
-  }
-
   void do_anything() {
     const BodyId id = any();
     const State state{any_point(), 2.0 * random.point_in_ball()};
@@ -79,13 +74,13 @@ class Bustle : public Crowd {
       case 0:
         if (!is_enabled(id)) {
           world.enable(id, state).value();
-          return place(id, state);
+          return set_state(id, state);
         }
         return world.disable(id).value();
       case 1:
         if (!is_enabled(id)) return;
         world.teleport(id, state).value();
-        return place(id, state);
+        return set_state(id, state);
       case 2:
         return world.change(id, {.radius = 0.5 * random.uniform()}).value();
       case 3: {

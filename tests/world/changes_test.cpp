@@ -10,12 +10,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-void teleport(Playground& p, BodyId id, const State& state) {
-  p.set_position(id, state.position);
-  p.set_velocity_unseen(id, state.velocity);
-  p.world.teleport(id, state).value();
-}
-
 /// Two bodies in contact, after delivery of their begin.
 struct Touching : Playground {
   BodyId a = add({.radius = 1});
@@ -37,20 +31,20 @@ struct Touching : Playground {
 
 TEST(Change, TeleportAwayEndsAContact) {
   Touching p;
-  teleport(p, p.b, {{50, 0, 0}, {}});
+  p.teleport(p.b, {{50, 0, 0}, {}});
   p.expect_end(p.run(2.0));
 }
 
 TEST(Change, TeleportWithinAContactIsSilent) {
   Touching p;
-  teleport(p, p.b, {{0, 1.25, 0}, {}});
+  p.teleport(p.b, {{0, 1.25, 0}, {}});
   EXPECT_TRUE(p.run(2.0).empty());
 }
 
 TEST(Change, TeleportAwayAndBackEndsAndBegins) {
   Touching p;
-  teleport(p, p.b, {{50, 0, 0}, {}});
-  teleport(p, p.b, {{1.5, 0, 0}, {}});
+  p.teleport(p.b, {{50, 0, 0}, {}});
+  p.teleport(p.b, {{1.5, 0, 0}, {}});
   const auto events = p.run(2.0);
   ASSERT_EQ(events.size(), 2u) << events;
   EXPECT_EQ(events[0].kind, EventKind::contact_end);
@@ -62,7 +56,7 @@ TEST(Change, TeleportIntoAnOverlapBeginsAtOnce) {
   p.add({.radius = 1});
   const BodyId b = p.add({.radius = 1, .position = {50, 0, 0}});
   p.run(1.0);
-  teleport(p, b, {{0, 1, 0}, {}});
+  p.teleport(b, {{0, 1, 0}, {}});
   const auto events = p.run(2.0);
   ASSERT_EQ(events.size(), 1u) << events;
   EXPECT_EQ(events[0].time, 1.0);
@@ -76,7 +70,7 @@ TEST(Change, TeleportAwayAtAnotherEventOfTheInstantTakesItsBeginBack) {
   p.add({.radius = 1, .position = {50, 0, 0}});
   const BodyId d = p.add({.radius = 1, .position = {51, 0, 0}});
   ASSERT_TRUE(p.advance(1.0));
-  teleport(p, d, {{100, 0, 0}, {}});
+  p.teleport(d, {{100, 0, 0}, {}});
   EXPECT_TRUE(p.run(1.0).empty());
 }
 
@@ -114,7 +108,7 @@ TEST(Change, OfABodyDoesNotTakeBackAnEndThatWasOnItsWay) {
 
 TEST(Change, TeleportDoesNotTakeBackAnEndThatWasOnItsWay) {
   Parting p;
-  teleport(p, p.d, {{1.25, 64, 0}, {1, 0, 0}});
+  p.teleport(p.d, {{1.25, 64, 0}, {1, 0, 0}});
   p.expect_end_and_begin(-0.75);
 }
 

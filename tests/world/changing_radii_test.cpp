@@ -10,17 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include "kinesphere/body_map.hpp"
 #include "kinesphere/certificates.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/placement.hpp"
 #include "kinesphere/queries.hpp"
-#include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"
-#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 #include "support/scenes_of_each.hpp"
+#include "world/mapped_world.hpp"
 
 namespace kinesphere::changing_radii_test {
 namespace {
@@ -412,7 +410,7 @@ TEST(ChangingRadii, HideNoBrokenPromise) {
 }
 
 /// A gas of balls that grow and bounce.
-struct Gas {
+struct Gas : MappedWorld<RandomForces> {
   explicit Gas(double rate = 0.02) {
     const Box box{{0, 0, 0}, {8, 8, 8}};
     const Axes everywhere{true, true, true};
@@ -426,42 +424,11 @@ struct Gas {
     ids = bodies.add_all(world, *motion, {.radius = 0.3, .radius_rate = rate}).value();
   }
 
-  std::uint64_t run(double until, Workers* workers = nullptr) {
-    auto source = bodies.source();
-    EventHash hash;
-    world
-        .run(
-            until, source,
-            [](const Event& event) {
-              return event.kind == EventKind::contact_begin ? response_of(event, bounce(event, 1.0))
-                                                            : Response{};
-            },
-            [&](const Event& event) {
-              hash.add(event);
-              ++count;
-            },
-            workers)
-        .value();
-    return hash.value();
-  }
-
-  World world = World::create({}).value();
-  std::unique_ptr<RandomForces> motion;
-  BodyMap bodies;
   std::vector<BodyId> ids;
-  int count = 0;
 };
 
 TEST(ChangingRadii, RunTheSameWithThreadsAndFromSnapshots) {
-  Gas alone, threaded;
-  Workers workers = eager_workers(2).value();
-  EXPECT_EQ(alone.run(2.0), threaded.run(2.0, &workers));
-  EXPECT_GT(alone.count, 200);
-  const auto snapshot = alone.world.save().value();
-  const std::uint64_t rest = alone.run(4.0);
-  threaded.world = World::restore(snapshot).value();
-  EXPECT_EQ(threaded.run(4.0, &workers), rest);
-  EXPECT_TRUE(is_clean(threaded.world));
+  expect_the_same_with_threads_and_from_snapshots<Gas>(2, 2.0, 200);
 }
 
 TEST(ChangingRadii, AreRecorded) {
@@ -471,9 +438,7 @@ TEST(ChangingRadii, AreRecorded) {
     gas.run(0.5 * step);
     gas.world.change(gas.ids[static_cast<std::size_t>(step)], {.radius_rate = -0.1 * step}).value();
   }
-  auto replay = Replay::open(gas.world.stop_recording().value()).value();
-  while (!replay.finished()) replay.advance().value();
-  EXPECT_EQ(replay.world().save().value(), gas.world.save().value());
+  expect_replay(gas.world);
 }
 
 /// A body that changes its number, sleeps or is disabled starts anew.

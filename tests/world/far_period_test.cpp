@@ -92,8 +92,7 @@ class Meeting : public Playground {
     const double thrown = 0.99995 * longest_way(place) / left;
     const State state{{from, 0, 0}, {-thrown, 0, 0}};
     world.teleport(waiter, {{place.wrapped(from), 0, 0}, state.velocity}).value();
-    set_position(waiter, state.position);
-    set_velocity_unseen(waiter, state.velocity);
+    set_state(waiter, state);
     double ahead =
         place.wrapped(from) - place.wrapped(world.body(goer).value().bound.centre_at(world.time()).x);
     if (ahead < 0.0) ahead += place.period;

@@ -11,10 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "kinesphere/body_map.hpp"
 #include "kinesphere/certificates.hpp"
 #include "kinesphere/motion/ballistic.hpp"
-#include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"
 #include "number/infinity.hpp"
 #include "support/eager_workers.hpp"
@@ -23,6 +21,7 @@
 #include "support/random_contacts.hpp"
 #include "support/scenes_of_each.hpp"
 #include "support/true_shapes.hpp"
+#include "world/mapped_world.hpp"
 
 namespace kinesphere::meeting_shapes_test {
 namespace {
@@ -194,12 +193,8 @@ class RandomMeetings : public testing::TestWithParam<ContactScene> {
         return come();
       case 1:
         return p.set_velocity(body, 2.0 * random.point_in_ball());
-      case 2: {
-        const State to{2.0 * random.point_in_ball(), random.point_in_ball()};
-        p.set_position(body, to.position);
-        p.set_velocity_unseen(body, to.velocity);
-        return p.world.teleport(body, to).value();
-      }
+      case 2:
+        return p.teleport(body, {2.0 * random.point_in_ball(), random.point_in_ball()});
       case 3:
         return p.world = World::restore(p.world.save().value()).value(), void();
       case 4: {
@@ -519,8 +514,9 @@ TEST(MeetingShapes, OverlapsAreRefused) {
 }
 
 /// Plates of all shapes that fall onto a floor and onto each other.
-struct Heap {
+struct Heap : MappedWorld<Ballistic> {
   Heap() {
+    world = World::create({.contacts = ContactEvents::impacts}).value();
     std::vector<State> start;
     Random random(45);
     for (int k = 0; k < count; ++k)
@@ -539,47 +535,23 @@ struct Heap {
     }
   }
 
-  std::uint64_t run(double until, Workers* workers = nullptr) {
-    auto source = bodies.source();
-    EventHash hash;
-    world
-        .run(
-            until, source, [](const Event& event) { return response_of(event, bounce(event, 1.0)); },
-            [&](const Event& event) {
-              hash.add(event);
-              ++events;
-            },
-            workers)
-        .value();
-    return hash.value();
-  }
-
   static constexpr int count = 120;
-  World world = World::create({.contacts = ContactEvents::impacts}).value();
-  std::unique_ptr<Ballistic> motion;
-  BodyMap bodies;
-  std::size_t events = 0;
 };
 
 TEST(MeetingShapes, RunTheSameWithThreadsAndFromSnapshots) {
+  expect_the_same_with_threads_and_from_snapshots<Heap>(4, 2.0, 100);
   Heap alone, threaded;
   Workers workers = eager_workers(4).value();
-  EXPECT_EQ(alone.run(2.0), threaded.run(2.0, &workers));
-  EXPECT_GT(alone.events, 100u);
-  const auto snapshot = alone.world.save().value();
-  EXPECT_EQ(snapshot, threaded.world.save().value());
-  const std::uint64_t rest = alone.run(4.0);
-  threaded.world = World::restore(snapshot).value();
-  EXPECT_EQ(threaded.run(4.0), rest);
+  alone.run(2.0);
+  threaded.run(2.0, &workers);
+  EXPECT_EQ(alone.world.save().value(), threaded.world.save().value());
 }
 
 TEST(MeetingShapes, AreRecorded) {
   Heap heap;
   ASSERT_TRUE(heap.world.start_recording());
   heap.run(1.0);
-  auto replay = Replay::open(heap.world.stop_recording().value()).value();
-  while (!replay.finished()) replay.advance().value();
-  EXPECT_EQ(replay.world().save().value(), heap.world.save().value());
+  expect_replay(heap.world);
 }
 
 /// A snapshot between two events of one instant, both about a moving shape alone.

@@ -9,18 +9,16 @@
 #include <utility>
 #include <vector>
 
-#include "kinesphere/body_map.hpp"
 #include "kinesphere/certificates.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/queries.hpp"
-#include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"
 #include "number/infinity.hpp"
-#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 #include "support/random_contacts.hpp"
 #include "support/scenes_of_each.hpp"
+#include "world/mapped_world.hpp"
 #include "world/surroundings.hpp"
 
 namespace kinesphere::moving_shapes_test {
@@ -77,12 +75,8 @@ class RandomMovingShapes : public testing::TestWithParam<ContactScene> {
       }
       case 1:
         return p.set_velocity(shape, 2.0 * random.point_in_ball());
-      case 2: {
-        const State to{2.0 * random.point_in_ball(), random.point_in_ball()};
-        p.set_position(shape, to.position);
-        p.set_velocity_unseen(shape, to.velocity);
-        return p.world.teleport(shape, to).value();
-      }
+      case 2:
+        return p.teleport(shape, {2.0 * random.point_in_ball(), random.point_in_ball()});
       case 3:
         return p.world = World::restore(p.world.save().value()).value(), void();
       case 4: {
@@ -290,8 +284,9 @@ TEST(MovingShapes, AreZones) {
 }
 
 /// A gas and a piston, as a Simulation would run it.
-struct Gas {
+struct Gas : MappedWorld<Ballistic> {
   Gas() {
+    world = World::create({.box = Box{{0, 0, 0}, {10, 10, 10}}, .contacts = ContactEvents::impacts}).value();
     std::vector<State> start;
     Random random(44);
     for (int k = 0; k < 200; ++k)
@@ -300,36 +295,12 @@ struct Gas {
     start.push_back({{5, 5, 10}, {0, 0, -0.5}});
     motion = std::make_unique<Ballistic>(Ballistic::create({.start = start}).value());
     for (std::uint32_t k = 0; k < 200; ++k) bodies.add(world, *motion, k, {.radius = 0.3}).value();
-    piston = bodies.add_moving_shape(world, *motion, 200, {{.mass = infinity}, Box{{-6, -6, 0}, {6, 6, 1}}})
-                 .value();
+    bodies.add_moving_shape(world, *motion, 200, {{.mass = infinity}, Box{{-6, -6, 0}, {6, 6, 1}}}).value();
   }
-
-  std::uint64_t run(double until, Workers* workers = nullptr) {
-    auto source = bodies.source();
-    EventHash hash;
-    world
-        .run(
-            until, source, [](const Event& event) { return response_of(event, bounce(event, 1.0)); },
-            [&](const Event& event) { hash.add(event); }, workers)
-        .value();
-    return hash.value();
-  }
-
-  World world =
-      World::create({.box = Box{{0, 0, 0}, {10, 10, 10}}, .contacts = ContactEvents::impacts}).value();
-  std::unique_ptr<Ballistic> motion;
-  BodyMap bodies;
-  BodyId piston{};
 };
 
 TEST(MovingShapes, RunTheSameWithThreadsAndFromSnapshots) {
-  Gas alone, threaded;
-  Workers workers = eager_workers(2).value();
-  EXPECT_EQ(alone.run(4.0), threaded.run(4.0, &workers));
-  const auto snapshot = alone.world.save().value();
-  const std::uint64_t rest = alone.run(8.0);
-  threaded.world = World::restore(snapshot).value();
-  EXPECT_EQ(threaded.run(8.0), rest);
+  expect_the_same_with_threads_and_from_snapshots<Gas>(2, 4.0, 200);
 }
 
 TEST(MovingShapes, AreRecorded) {
@@ -339,9 +310,7 @@ TEST(MovingShapes, AreRecorded) {
   const std::uint32_t number = gas.motion->add(0.0, still).value();
   gas.bodies.add_moving_shape(gas.world, *gas.motion, number, {{.mass = infinity}, plate}).value();
   gas.run(2.0);
-  auto replay = Replay::open(gas.world.stop_recording().value()).value();
-  while (!replay.finished()) replay.advance().value();
-  EXPECT_EQ(replay.world().save().value(), gas.world.save().value());
+  expect_replay(gas.world);
 }
 
 TEST(MovingShapes, AreRefusedWithAReason) {

@@ -188,8 +188,7 @@ class RandomRigidBodies : public testing::TestWithParam<Kind> {
       case 3: {
         const State to{home() + 2.0 * random.point_in_ball(), random.point_in_ball()};
         if (!p.world.teleport(id, to)) return;  // into a wall
-        p.set_position(id, to.position);
-        p.set_velocity_unseen(id, to.velocity);
+        p.set_state(id, to);
         // The world knows the rotation of a body that keeps its angular velocity alone.
         if (spins_change()) p.world.change(id, {.rotation = spins[id].at(now)}).value();
         return;

@@ -7,17 +7,13 @@
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/math/motion/interp_motion.h>
-#include <fcl/math/motion/screw_motion.h>
 #include <fcl/math/motion/translation_motion.h>
 #include <fcl/narrowphase/continuous_collision.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iostream>
 #include <memory>
-#include <sstream>
-#include <type_traits>
 #include <utility>
 
 namespace kinesphere::program {
@@ -26,8 +22,7 @@ namespace {
 using FclRequest = fcl::ContinuousCollisionRequest<double>;
 using FclVector = fcl::Vector3<double>;
 using FclMatrix = fcl::Matrix3<double>;
-using FclLinear = fcl::InterpMotion<double>;
-using FclScrew = fcl::ScrewMotion<double>;
+using FclMotion = fcl::InterpMotion<double>;
 
 FclVector fcl_vector(const Vec3& v) { return {v.x, v.y, v.z}; }
 
@@ -46,27 +41,10 @@ struct FclPose {
   FclVector place;
 };
 
-/// Motion of a shape with its middle at `centre` in a body that flies and turns steadily or, as ScrewMotion,
-/// on a screw from one pose to the other.
-template <class Motion>
-Motion motion_of(const FclPose& from, const FclPose& to, const FclVector& centre) {
-  const FclVector begin = from.place + from.turn * centre;
-  const FclVector end = to.place + to.turn * centre;
-  // Of the constructors of InterpMotion this is the only one that sets all its members and its velocity.
-  if constexpr (std::is_same_v<Motion, FclLinear>)
-    return {from.turn, begin, to.turn, end, -centre};
-  else
-    return {from.turn, begin, to.turn, end};
-}
-
-/// Motion of the middle of a body.
-template <class Motion>
-auto middle_motion_of(const FclPose& from, const FclPose& to) {
-  if constexpr (std::is_same_v<Motion, FclLinear>) {
-    return fcl::TranslationMotion<double>(FclMatrix::Identity(), from.place, to.place);
-  } else {
-    return motion_of<Motion>(from, to, FclVector::Zero());
-  }
+/// Motion of a shape with its middle at `centre` in a body that flies and turns steadily.
+FclMotion motion_of(const FclPose& from, const FclPose& to, const FclVector& centre) {
+  // Of the constructors this is the only one that sets all members and the velocity.
+  return {from.turn, from.place + from.turn * centre, to.turn, to.place + to.turn * centre, -centre};
 }
 
 /// Shapes of FCL: one capsule along z, one box, or spheres with their centres; and the sphere around all of
@@ -107,25 +85,25 @@ std::optional<double> contact_of(const fcl::CollisionGeometry<double>& first, co
 
 /// Returns the first contact in a piece of the course, as a part of it. Of clusters the spheres around them
 /// are tried first.
-template <class Motion>
 std::optional<double> contact_in_piece(const FclShapes& first, const FclPose (&first_poses)[2],
                                        const FclShapes& second, const FclPose (&second_poses)[2],
                                        const FclRequest& request) {
   const auto motions = [](const FclShapes& shapes, const FclPose(&poses)[2]) {
-    std::vector<Motion> found;
-    for (const FclVector& centre : shapes.centres)
-      found.push_back(motion_of<Motion>(poses[0], poses[1], centre));
+    std::vector<FclMotion> found;
+    for (const FclVector& centre : shapes.centres) found.push_back(motion_of(poses[0], poses[1], centre));
     return found;
   };
   if (first.parts.size() * second.parts.size() > 1) {
     FclRequest nearness = request;
     nearness.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
-    const auto one = middle_motion_of<Motion>(first_poses[0], first_poses[1]);
-    const auto other = middle_motion_of<Motion>(second_poses[0], second_poses[1]);
+    const auto middle = [](const FclPose(&poses)[2]) {
+      return fcl::TranslationMotion<double>(FclMatrix::Identity(), poses[0].place, poses[1].place);
+    };
+    const auto one = middle(first_poses), other = middle(second_poses);
     if (!contact_of(first.around, one, second.around, other, nearness)) return std::nullopt;
   }
-  const std::vector<Motion> first_motions = motions(first, first_poses);
-  const std::vector<Motion> second_motions = motions(second, second_poses);
+  const std::vector<FclMotion> first_motions = motions(first, first_poses);
+  const std::vector<FclMotion> second_motions = motions(second, second_poses);
   std::optional<double> earliest;
   for (std::size_t a = 0; a < first.parts.size(); ++a) {
     for (std::size_t b = 0; b < second.parts.size(); ++b) {
@@ -139,7 +117,6 @@ std::optional<double> contact_in_piece(const FclShapes& first, const FclPose (&f
 
 /// Finds the first contact piece by piece. In a piece each body makes at most a quarter turn, since motions
 /// of FCL go from one orientation to the other by less than half a turn.
-template <class Motion>
 std::optional<double> fcl_contact(const TurningPair& pair, const FclRequest& request) {
   const double quarter = 1.57079632679489661923;
   const double fastest =
@@ -152,54 +129,24 @@ std::optional<double> fcl_contact(const TurningPair& pair, const FclRequest& req
     const double to = (piece + 1) / static_cast<double>(pieces);
     const FclPose first_poses[] = {{pair.first, from}, {pair.first, to}};
     const FclPose second_poses[] = {{pair.second, from}, {pair.second, to}};
-    const auto part = contact_in_piece<Motion>(first, first_poses, second, second_poses, request);
+    const auto part = contact_in_piece(first, first_poses, second, second_poses, request);
     if (part) return from + (to - from) * *part;
   }
   return std::nullopt;
 }
 
-template <class Motion>
-PairMethod fcl_method(std::string name, fcl::CCDSolverType solver, fcl::CCDMotionType motion) {
+PairMethod fcl_method(std::string name, fcl::CCDSolverType solver) {
   FclRequest request;
   request.ccd_solver_type = solver;
-  request.ccd_motion_type = motion;
-  return {std::move(name), [=](const TurningPair& pair) { return fcl_contact<Motion>(pair, request); }};
+  request.ccd_motion_type = fcl::CCDM_LINEAR;
+  return {std::move(name), [=](const TurningPair& pair) { return fcl_contact(pair, request); }};
 }
 
 }  // namespace
 
 std::vector<PairMethod> fcl_methods() {
-  return {
-      fcl_method<FclLinear>("FCL advancement", fcl::CCDC_CONSERVATIVE_ADVANCEMENT, fcl::CCDM_LINEAR),
-      fcl_method<FclScrew>("FCL advancement (screws)", fcl::CCDC_CONSERVATIVE_ADVANCEMENT, fcl::CCDM_SCREW),
-      fcl_method<FclLinear>("FCL naive", fcl::CCDC_NAIVE, fcl::CCDM_LINEAR)};
-}
-
-std::vector<std::string> fcl_refusals() {
-  const std::pair<const char*, fcl::CCDSolverType> solvers[] = {
-      {"CCDC_NAIVE", fcl::CCDC_NAIVE},
-      {"CCDC_CONSERVATIVE_ADVANCEMENT", fcl::CCDC_CONSERVATIVE_ADVANCEMENT},
-      {"CCDC_RAY_SHOOTING", fcl::CCDC_RAY_SHOOTING},
-      {"CCDC_POLYNOMIAL_SOLVER", fcl::CCDC_POLYNOMIAL_SOLVER}};
-  const fcl::Capsuled capsule(0.1, 1.0);
-  const FclPose from({.start = {{-1, 0, 0}}}, 0.0);
-  const FclPose to({.start = {{1, 0, 0}}}, 0.0);
-  const FclLinear moves = motion_of<FclLinear>(from, to, FclVector::Zero());
-  const FclLinear comes = motion_of<FclLinear>(to, from, FclVector::Zero());
-  std::vector<std::string> refused;
-  // A refusal is a result of -1 and a line to the standard error.
-  std::ostringstream said;
-  std::streambuf* const before = std::cerr.rdbuf(said.rdbuf());
-  for (const auto& [name, solver] : solvers) {
-    FclRequest request;
-    request.ccd_solver_type = solver;
-    request.ccd_motion_type = fcl::CCDM_LINEAR;
-    fcl::ContinuousCollisionResult<double> result;
-    if (fcl::continuousCollide(&capsule, &moves, &capsule, &comes, request, result) < 0.0)
-      refused.emplace_back(name);
-  }
-  std::cerr.rdbuf(before);
-  return refused;
+  return {fcl_method("FCL advancement", fcl::CCDC_CONSERVATIVE_ADVANCEMENT),
+          fcl_method("FCL naive", fcl::CCDC_NAIVE)};
 }
 
 }  // namespace kinesphere::program
@@ -209,7 +156,6 @@ std::vector<std::string> fcl_refusals() {
 namespace kinesphere::program {
 
 std::vector<PairMethod> fcl_methods() { return {}; }
-std::vector<std::string> fcl_refusals() { return {}; }
 
 }  // namespace kinesphere::program
 

@@ -20,7 +20,5 @@ struct PairMethod {
 std::vector<PairMethod> world_methods();
 /// Continuous collision of FCL. Empty if this program was built without FCL.
 std::vector<PairMethod> fcl_methods();
-/// Returns the solvers of FCL that refuse two capsules whose motions need not be translations.
-std::vector<std::string> fcl_refusals();
 
 }  // namespace kinesphere::program

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -108,9 +107,6 @@ void bench_shapes(const BenchOptions& options, const Report& report) {
   report.table("shapes", table);
   if (fcl_methods().empty())
     report.note("FCL is left out: it was not installed when this program was built (libfcl-dev).");
-  else
-    report.note(fmt::format("Solvers of FCL that refuse capsules on such motions: {}.",
-                            fmt::join(fcl_refusals(), ", ")));
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include "research/bench/speed/step_recording.hpp"
 #include "research/bench/speed/transcript.hpp"
 #include "research/bench/speed/tuning.hpp"
-#include "research/measures/probe_floor.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -27,12 +26,11 @@ class Contest {
         settings_(settings),
         scene_(entry.make(entry.response)),
         world_(default_engine(entry.alarm > 0.0 ? alarm_engine(entry.alarm) : world_engine())) {
-    if (!has_rivals() && !entry.floor) return;
+    if (!has_rivals()) return;
     passing_ = entry.make(SceneResponse::pass_through);
     // A detector with fixed steps sees alarms as contacts of larger bodies.
     for (SceneBody& body : passing_.bodies) body.radius += 0.5 * entry.alarm;
-    if (has_rivals()) truth_ = counted(count_contacts(passing_, world_engine().make));
-    if (entry.floor) count_floor();
+    truth_ = counted(count_contacts(passing_, world_engine().make));
   }
 
   std::vector<SpeedRow> run() {
@@ -87,12 +85,6 @@ class Contest {
     return {std::move(row), play_again};
   }
 
-  void count_floor() {
-    const Flight flight = require(record_flight(stepped(), world_engine().make));
-    const auto floor = static_cast<double>(probe_floor(stepped(), flight).total());
-    if (floor > 0.0) floor_ = floor / flight.result.body_time;
-  }
-
   /// Lets a group of rivals take turns, the default engine before them.
   void take_turns(std::vector<Contestant> contestants) {
     for (int turn = 0; turn < settings_.repetitions; ++turn) {
@@ -132,7 +124,6 @@ class Contest {
     for (const Turn& turn : contestant.row.turns) costs.push_back(turn.own);
     contestant.row.detection = median(std::move(costs));
     if (!contestant.building.empty()) contestant.row.building = median(contestant.building);
-    if (floor_ && !contestant.row.rate) contestant.row.to_floor = contestant.row.moves / *floor_;
   }
 
   void run_steps(double rate, SphereTest test) {
@@ -195,35 +186,16 @@ class Contest {
   const SpeedSettings& settings_;
   Scene scene_;
   Contestant world_;
-  Scene passing_;                ///< the scene without bounces, with alarms, if there are any, as contacts
-  ContactCounts truth_;          ///< contacts of passing_ that count
-  std::optional<double> floor_;  ///< probes in a body-second
+  Scene passing_;        ///< the scene without bounces, with alarms, if there are any, as contacts
+  ContactCounts truth_;  ///< contacts of passing_ that count
   std::vector<SpeedRow> rows_;
 };
 
 }  // namespace
 
-const SpeedRow* find_row(const std::vector<SpeedRow>& rows, const std::string& detector,
-                         std::optional<double> rate) {
-  const auto row = std::find_if(rows.begin(), rows.end(), [&](const SpeedRow& one) {
-    return one.detector == detector && one.rate == rate;
-  });
-  return row == rows.end() ? nullptr : &*row;
-}
-
-const SpeedRow* find_slowest_safe(const std::vector<SpeedRow>& rows, const std::string& detector) {
-  const SpeedRow* slowest = nullptr;
-  for (const SpeedRow& row : rows) {
-    if (row.detector != detector || !row.rate || row.missed != 0.0) continue;
-    if (slowest == nullptr || row.rate < slowest->rate) slowest = &row;
-  }
-  return slowest;
-}
-
-double SpeedRow::to_world(const SpeedRow& world, double price) const {
+double SpeedRow::to_world() const {
   std::vector<double> ratios;
-  for (const Turn& turn : turns)
-    ratios.push_back((turn.own + price * moves) / (turn.world + price * world.moves));
+  for (const Turn& turn : turns) ratios.push_back(turn.own / turn.world);
   return median(std::move(ratios));
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +27,6 @@ struct SpeedRow {
   double detection = 0.0;      ///< seconds for a body-second, without motion and response; the median
   std::vector<Turn> turns{};
   double moves = 0.0;                ///< probes, or steps, in a body-second
-  std::optional<double> to_floor{};  ///< ratio of probes to the probe floor
   std::optional<double> contacts{};  ///< contacts in a body-second
   std::optional<double> missed{};    ///< part of the contacts that count (SpeedScene), without bounces
   std::optional<double> bytes{};     ///< memory for each body
@@ -37,20 +35,9 @@ struct SpeedRow {
 
   /// Returns seconds for a body-second if a move costs `price` seconds.
   double total(double price) const { return detection + price * moves; }
-  /// Returns the quotient of total times of this row and the row `world` of the default engine: the median of
-  /// the turns.
-  double to_world(const SpeedRow& world, double price = 0.0) const;
+  /// Returns the quotient of the times of this row and of the default engine: the median of the turns.
+  double to_world() const;
 };
-
-/// Rows by scene.
-using SpeedResults = std::map<std::string, std::vector<SpeedRow>>;
-
-/// Returns the row of this detector at this rate; nullptr if it did not take part.
-const SpeedRow* find_row(const std::vector<SpeedRow>& rows, const std::string& detector,
-                         std::optional<double> rate = std::nullopt);
-
-/// Returns the row of this detector with the slowest steps that miss nothing; nullptr if there is none.
-const SpeedRow* find_slowest_safe(const std::vector<SpeedRow>& rows, const std::string& detector);
 
 /// Runs all detectors on a scene and returns their rows, the default engine first. Throws ProgramError.
 std::vector<SpeedRow> compare_speed(const SpeedScene& scene, const SpeedSettings& settings);

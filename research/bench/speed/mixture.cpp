@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/program_error.hpp"
-#include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/piecewise_acceleration.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/placement.hpp"
@@ -119,27 +118,6 @@ Scene make_crowd(const CrowdParameters& p, SceneResponse response) {
     start.push_back({place_in_square(body, squares, edge, random), Walkers::wanted_velocity(walk, body, 0)});
   }
   scene.motion = std::make_unique<Walkers>(start, walk);
-  return scene;
-}
-
-Scene make_gas(const GasParameters& p, SceneResponse response) {
-  constexpr double radius = 0.5;
-  constexpr double volume = 3.14159265358979 / 6.0;
-  Scene scene = empty_scene(response, p.seconds);
-  const double edge = std::cbrt(volume * p.bodies / p.filled);
-  scene.world.box = Box{{0, 0, 0}, {edge, edge, edge}};
-  scene.world.periodic = {true, true, true};
-  const auto centres = place_spheres(std::vector<double>(p.bodies, radius), *scene.world.box,
-                                     {.periodic = scene.world.periodic,
-                                      .gap = 4.0 * scene.world.contact_tolerance,
-                                      .seed = Random::at(p.seed, placement_stream, 0).bits()});
-  if (!centres) throw ProgramError("bench: the spheres of a gas do not fit into its box");
-  std::vector<State> start;
-  for (std::uint32_t body = 0; body < p.bodies; ++body) {
-    start.push_back({(*centres)[body], Random::at(p.seed, body_stream, body).unit_vector()});
-    scene.bodies.push_back({.radius = radius});
-  }
-  scene.motion = std::make_unique<Ballistic>(require(Ballistic::create({.start = std::move(start)})));
   return scene;
 }
 

@@ -1,4 +1,4 @@
-// Scenes of the benchmark's own: several kinds of bodies in one box, a crowd, a gas.
+// Scenes of the benchmark's own: several kinds of bodies in one box, and a crowd.
 #pragma once
 
 #include <cstdint>
@@ -39,17 +39,5 @@ struct CrowdParameters {
 };
 
 Scene make_crowd(const CrowdParameters& parameters, SceneResponse response);
-
-/// Spheres of diameter 1 that start with speed 1, bounce, and fly straight in between, in periodic space. At
-/// the start they are placed at random between walls and pushed apart.
-struct GasParameters {
-  std::uint32_t bodies;
-  double filled;  ///< part of the volume
-  double seconds;
-  std::uint64_t seed = 1;
-};
-
-/// Makes a gas. Throws ProgramError if the spheres do not fit. Cost: some hundred microseconds per sphere.
-Scene make_gas(const GasParameters& parameters, SceneResponse response);
 
 }  // namespace kinesphere::program

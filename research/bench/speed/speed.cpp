@@ -12,7 +12,6 @@
 #include "research/bench/speed/bullet_kernel.hpp"
 #include "research/bench/speed/contest.hpp"
 #include "research/bench/speed/threads.hpp"
-#include "research/bench/speed/verdicts.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -22,17 +21,16 @@ Cell cell(const std::optional<double>& value, double scale = 1.0) {
 }
 
 const std::vector<std::string> columns{
-    "scene",      "n",        "detector", "rate",     "us",       "total_100ns",    "total_1us",
-    "total_10us", "to_world", "moves",    "to_floor", "contacts", "per_cpu_second", "missed_percent",
-    "bytes",      "build_s",  "settings", "hash"};
+    "scene",          "n",          "detector", "rate",     "us",       "total_100ns",
+    "total_1us",      "total_10us", "to_world", "moves",    "contacts", "per_cpu_second",
+    "missed_percent", "bytes",      "build_s",  "settings", "hash"};
 
-void add_row(ResultTable& table, const SpeedScene& scene, const SpeedRow& row, const SpeedRow& world) {
+void add_row(ResultTable& table, const SpeedScene& scene, const SpeedRow& row) {
   table.row({scene.name, std::uint64_t{scene.bodies}, row.detector, cell(row.rate),
              1e6 * row.total(move_prices[0]), 1e6 * row.total(move_prices[1]),
-             1e6 * row.total(move_prices[2]), 1e6 * row.total(move_prices[3]), row.to_world(world), row.moves,
-             cell(row.to_floor), cell(row.contacts), cell(row.contacts, 1.0 / row.detection),
-             cell(row.missed, 100.0), cell(row.bytes), cell(row.building), row.settings,
-             fmt::format("{:016x}", row.hash)});
+             1e6 * row.total(move_prices[2]), 1e6 * row.total(move_prices[3]), row.to_world(), row.moves,
+             cell(row.contacts), cell(row.contacts, 1.0 / row.detection), cell(row.missed, 100.0),
+             cell(row.bytes), cell(row.building), row.settings, fmt::format("{:016x}", row.hash)});
 }
 
 void explain(const Report& report, const SpeedSettings& settings) {
@@ -45,9 +43,9 @@ void explain(const Report& report, const SpeedSettings& settings) {
       settings.name, settings.repetitions));
   report.note(
       "tuned: the fastest of several grids and Verlet lists for this scene and rate (\"settings\"), which "
-      "sees overlaps at steps; swept: the same, with a test along the straight ways between steps. \"to "
-      "floor\": probes to the least that a method that knew all other motion would need. \"missed percent\": "
-      "contacts that are overlooked in the same scene without bounces (bullets: those of bullets). "
+      "sees overlaps at steps; swept: the same, with a test along the straight ways between steps. "
+      "\"missed percent\": contacts that are overlooked in the same scene without bounces (bullets: those of "
+      "bullets). "
       "\"contacts\" are those of a body-second, \"per cpu second\" those that are found in a second of this "
       "machine.");
   if (!make_bullet_kernel({}))
@@ -71,19 +69,17 @@ void bench_threads(const BenchOptions& options, const std::vector<SpeedScene>& s
   }
   if (options.has(shooting_name)) rows.push_back(compare_threads_in_game(*options.threads, settings));
   for (const ThreadsRow& row : rows) {
-    const auto seconds = [&](double ThreadsTurn::*way) {
-      std::vector<double> all;
-      all.reserve(row.turns.size());
-      for (const ThreadsTurn& turn : row.turns) all.push_back(turn.*way);
-      return median(std::move(all));
-    };
+    using Turn = const ThreadsTurn&;
     table.row({row.scene, std::uint64_t{row.bodies}, static_cast<std::uint64_t>(row.threads),
-               seconds(&ThreadsTurn::loop), seconds(&ThreadsTurn::one), seconds(&ThreadsTurn::many),
-               row.one_to_loop(), row.one_to_many(), row.cpu_to_one(), row.events,
+               row.median_of([](Turn turn) { return turn.loop; }),
+               row.median_of([](Turn turn) { return turn.one; }),
+               row.median_of([](Turn turn) { return turn.many; }),
+               row.median_of([](Turn turn) { return turn.one / turn.loop; }),
+               row.median_of([](Turn turn) { return turn.one / turn.many; }),
+               row.median_of([](Turn turn) { return turn.many_cpu / turn.one_cpu; }), row.events,
                fmt::format("{:016x}", row.hash)});
   }
   report.table("threads", table);
-  report.table("threads_verdicts", table_of(verdicts_of_threads(rows)));
 }
 
 void bench_speed(const BenchOptions& options, const Report& report) {
@@ -91,21 +87,19 @@ void bench_speed(const BenchOptions& options, const Report& report) {
   const std::vector<SpeedScene> scenes = speed_scenes(settings);
   if (options.threads) return bench_threads(options, scenes, settings, report);
   explain(report, settings);
-  SpeedResults results;
   ResultTable all(columns);
   for (const SpeedScene& scene : scenes) {
     if (!options.has(scene.name)) continue;
     report.heading(fmt::format("{}, {} bodies", scene.name, scene.bodies));
-    const std::vector<SpeedRow>& rows = results[scene.name] = compare_speed(scene, settings);
+    const std::vector<SpeedRow> rows = compare_speed(scene, settings);
     ResultTable table(columns);
     for (const SpeedRow& row : rows) {
-      add_row(table, scene, row, rows.front());
-      add_row(all, scene, row, rows.front());
+      add_row(table, scene, row);
+      add_row(all, scene, row);
     }
     print("{}\n", table.text());
     report.save("speed", all);  // results so far; the rest may take long
   }
-  save_verdicts(report, scenes, results);
 }
 
 }  // namespace

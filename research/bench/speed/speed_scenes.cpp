@@ -8,7 +8,6 @@
 #include "base/program_error.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/bench/speed/mixture.hpp"
-#include "research/bench/vessels.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace kinesphere::program {
@@ -29,7 +28,7 @@ class SceneList {
     SceneParameters pile = find_scene("pile").parameters;
     pile.seconds = 3.0;  // the spheres lie in a heap and jostle
     // Without bounces the spheres fall out of the box, so no contact can be counted as missed.
-    add({.name = "pile", .rates = game_rates, .first_counted = pile.bodies, .floor = true}, pile);
+    add({.name = "pile", .rates = game_rates, .first_counted = pile.bodies}, pile);
     const auto too_large = [this](const SpeedScene& scene) { return scene.bodies > settings_.most_bodies; };
     scenes_.erase(std::remove_if(scenes_.begin(), scenes_.end(), too_large), scenes_.end());
     for (SpeedScene& scene : scenes_)
@@ -50,7 +49,9 @@ class SceneList {
   }
 
   void add(SpeedScene scene, SceneParameters parameters) {
-    parameters = with_box(parameters, fewer(parameters.bodies));
+    // Fewer spheres of a gas would not fit between walls, as which they are placed.
+    const std::uint32_t least = parameters.periodic ? 1000 : 10;
+    parameters = with_box(parameters, std::max(fewer(parameters.bodies), least));
     parameters.seconds = shorter(parameters.seconds);
     scene.bodies = parameters.bodies;
     scene.response = parameters.response;
@@ -63,7 +64,7 @@ class SceneList {
 
   void paper() {
     for (const std::uint32_t bodies : {500u, 1000u, 2000u, 3500u}) {
-      add({.name = fmt::format("paper1-{}", bodies), .rates = game_rates, .trees = true, .floor = true},
+      add({.name = fmt::format("paper1-{}", bodies), .rates = game_rates, .trees = true},
           first_experiment(bodies, 2.0));
     }
     // All last equally long, as the small ones heat up.
@@ -73,7 +74,7 @@ class SceneList {
            .trees = bodies <= 100'000},
           with_box(first_experiment(1000, 0.2), bodies));
     }
-    add({.name = "paper2", .rates = game_rates, .floor = true}, second_experiment(1000, 2.0));
+    add({.name = "paper2", .rates = game_rates}, second_experiment(1000, 2.0));
   }
 
   void mixture(SpeedScene scene, const MixtureParameters& parameters) {
@@ -89,8 +90,7 @@ class SceneList {
     mixture({.name = "drones",
              .response = SceneResponse::pass_through,
              .rates = {1.0, 4.0, 15.0, 60.0, 240.0},
-             .alarm = alarm,
-             .floor = true},
+             .alarm = alarm},
             {.box = {{0, 0, 0}, {20'000 * shrink, 20'000 * shrink, 300}},
              .walls = false,
              .kinds = {{drones, 0.5, 0.5, 15.0, 15.0, 5.0}},
@@ -101,15 +101,7 @@ class SceneList {
                        .bodies = people.people,
                        .response = SceneResponse::pass_through,
                        .make = [people](SceneResponse response) { return make_crowd(people, response); },
-                       .rates = {10.0, 30.0, 60.0, 240.0},
-                       .floor = true});
-    constexpr double close = 50.0;
-    const VesselParameters vessels{.vessels = fewer(2708), .seconds = shorter(3600.0)};
-    scenes_.push_back({.name = "vessels",
-                       .bodies = vessels.vessels,
-                       .response = SceneResponse::pass_through,
-                       .make = [vessels](SceneResponse) { return make_vessels(vessels, close); },
-                       .rates = {0.1, 1.0}});
+                       .rates = {10.0, 30.0, 60.0, 240.0}});
   }
 
   void extremes() {
@@ -118,8 +110,7 @@ class SceneList {
     mixture({.name = "bullets",
              .response = SceneResponse::pass_through,
              .rates = {60.0, 240.0, 1000.0, 4000.0},
-             .first_counted = boulders,
-             .floor = true},
+             .first_counted = boulders},
             {.box = {{0, 0, 0}, {edge, edge, edge}},
              .kinds = {{boulders, 1.0, 3.0, 0.0, 1.0, 0.5}, {10, 0.01, 0.05, 1000.0, 1000.0, 1.0}},
              .seconds = shorter(0.25)});
@@ -129,27 +120,19 @@ class SceneList {
       const double radius = 0.01 * static_cast<double>(1u << k);
       sizes.kinds.push_back({std::max(fewer(8192) >> k, 1u), radius, radius, 1.0, 10.0, 10.0});
     }
-    mixture({.name = "sizes",
-             .response = SceneResponse::bounce,
-             .rates = game_rates,
-             .trees = true,
-             .floor = true},
-            sizes);
+    mixture({.name = "sizes", .response = SceneResponse::bounce, .rates = game_rates, .trees = true}, sizes);
   }
 
   /// Adds gases, without rivals: fixed steps do not support periodic space.
   void gases() {
+    SceneParameters gas = find_scene("periodic_gas").parameters;
+    gas.speed_min = gas.speed_max = 1.0;
     for (const std::uint32_t bodies : {4'000u, 108'000u}) {
       for (const int percent : {25, 49}) {
-        // Fewer spheres would not fit between walls at the start.
-        const GasParameters gas{.bodies = std::max(fewer(bodies), 1000u),
-                                .filled = 0.01 * percent,
-                                .seconds = shorter(bodies > 4'000 ? 0.2 : 3.0)};
-        scenes_.push_back({.name = fmt::format("gas{}-{}", percent, bodies),
-                           .bodies = gas.bodies,
-                           .response = SceneResponse::bounce,
-                           .make = [gas](SceneResponse response) { return make_gas(gas, response); },
-                           .rates = {}});
+        gas.bodies = bodies;
+        gas.packing = 0.01 * percent;
+        gas.seconds = bodies > 4'000 ? 0.2 : 3.0;
+        add({.name = fmt::format("gas{}-{}", percent, bodies), .rates = {}}, gas);
       }
     }
   }
@@ -181,15 +164,16 @@ const SpeedSettings& speed_settings(Effort effort) {
                                        .most_with_rivals = 108'000,
                                        .most_recorded = 15'000'000,
                                        .most_looked = 130'000'000};
-  static constexpr SpeedSettings full{.name = "full",
-                                      .repetitions = 5,
-                                      .least_turn = 0.1,
-                                      .divide = 1,
-                                      .shorten = 1.0,
-                                      .most_bodies = 1'000'000,
-                                      .most_with_rivals = 1'000'000,
-                                      .most_recorded = 60'000'000,
-                                      .most_looked = 400'000'000};
+  static const SpeedSettings full = [] {
+    SpeedSettings longer = usual;
+    longer.name = "full";
+    longer.repetitions = 5;
+    longer.least_turn = 0.1;
+    longer.most_with_rivals = 1'000'000;
+    longer.most_recorded = 60'000'000;
+    longer.most_looked = 400'000'000;
+    return longer;
+  }();
   return chosen(effort, quick, usual, full);
 }
 

@@ -39,7 +39,6 @@ struct SpeedScene {
   /// Missed contacts are counted if the second body has this number or a higher one.
   std::uint32_t first_counted = 0;
   bool trees = false;  ///< compare with Bullet's trees
-  bool floor = false;  ///< count the probe floor
 };
 
 std::vector<SpeedScene> speed_scenes(const SpeedSettings& settings);

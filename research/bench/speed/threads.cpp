@@ -67,27 +67,7 @@ ThreadsRow compare(ThreadsRow row, const SpeedSettings& settings, const Time& ti
   return row;
 }
 
-template <class Quotient>
-double median_of(const std::vector<ThreadsTurn>& turns, Quotient quotient) {
-  std::vector<double> quotients;
-  quotients.reserve(turns.size());
-  for (const ThreadsTurn& turn : turns) quotients.push_back(quotient(turn));
-  return median(std::move(quotients));
-}
-
 }  // namespace
-
-double ThreadsRow::one_to_loop() const {
-  return median_of(turns, [](const ThreadsTurn& turn) { return turn.one / turn.loop; });
-}
-
-double ThreadsRow::one_to_many() const {
-  return median_of(turns, [](const ThreadsTurn& turn) { return turn.one / turn.many; });
-}
-
-double ThreadsRow::cpu_to_one() const {
-  return median_of(turns, [](const ThreadsTurn& turn) { return turn.many_cpu / turn.one_cpu; });
-}
 
 ThreadsRow compare_threads(const SpeedScene& entry, int threads, const SpeedSettings& settings) {
   const Scene scene = entry.make(entry.response);
@@ -102,16 +82,6 @@ ThreadsRow compare_threads_in_game(int threads, const SpeedSettings& settings) {
     const ShootingResult played = workers ? run_shooting(game, workers) : loop_shooting(game);
     return TimedRun{played.seconds, played.cpu_seconds, played.events, played.hash};
   });
-}
-
-std::vector<Verdict> verdicts_of_threads(const std::vector<ThreadsRow>& rows) {
-  std::vector<Verdict> all;
-  for (const ThreadsRow& row : rows) {
-    all.push_back({"6", "run on one thread to a loop", row.scene, "", true, 1.1, row.one_to_loop()});
-    if (row.threads == 2)
-      all.push_back({"6", "times faster on two threads", row.scene, "", false, 1.6, row.one_to_many()});
-  }
-  return all;
 }
 
 }  // namespace kinesphere::program

@@ -3,10 +3,11 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "research/bench/measurement.hpp"
 #include "research/bench/speed/speed_scenes.hpp"
-#include "research/bench/speed/verdicts.hpp"
 
 namespace kinesphere::program {
 
@@ -27,12 +28,16 @@ struct ThreadsRow {
   std::uint64_t events;
   std::uint64_t hash;  ///< equal in all ways
 
-  double one_to_loop() const;  ///< quotient of times; the median of the turns
-  double one_to_many() const;
-  double cpu_to_one() const;  ///< CPU time of all threads, to that of one
+  /// Returns the median of quotient(turn) over the turns.
+  template <class Quotient>
+  double median_of(Quotient quotient) const {
+    std::vector<double> quotients;
+    for (const ThreadsTurn& turn : turns) quotients.push_back(quotient(turn));
+    return median(std::move(quotients));
+  }
 };
 
-/// The name of the game of research/measures/shooting_game.hpp among the scenes.
+/// The name of the game of research/measures/games.hpp among the scenes.
 constexpr const char* shooting_name = "shooting";
 
 /// Runs the scene in the three ways. Throws ProgramError, also if their hashes differ.
@@ -40,8 +45,5 @@ ThreadsRow compare_threads(const SpeedScene& entry, int threads, const SpeedSett
 
 /// The same for a game in which bodies vanish and appear.
 ThreadsRow compare_threads_in_game(int threads, const SpeedSettings& settings);
-
-/// Returns the verdicts on goal 6.
-std::vector<Verdict> verdicts_of_threads(const std::vector<ThreadsRow>& rows);
 
 }  // namespace kinesphere::program

@@ -15,7 +15,7 @@ TEST_F(BenchShapes, TheWorldFindsEveryContactAtItsTime) {
   const ProgramRun result = bench("shapes");
   const BenchRows table = BenchTest::table("shapes.csv");
   const bool has_fcl = result.out.find("FCL is left out") == std::string::npos;
-  ASSERT_EQ(table.size(), 1u + 6u * (has_fcl ? 6u : 3u)) << result.out;
+  ASSERT_EQ(table.size(), 1u + 6u * (has_fcl ? 5u : 3u)) << result.out;
   for (std::size_t row = 0; row + 1 < table.size(); ++row) {
     const auto number = [&](const char* column) { return csv_number(table, row, column); };
     SCOPED_TRACE(csv_cell(table, row, "kind") + ", " + table[row + 1][1]);

@@ -11,20 +11,6 @@
 
 namespace kinesphere::program {
 
-/// A message as a text of 0 and 1.
-class AisWriter {
- public:
-  AisWriter& add(int bits, std::int64_t value) {
-    for (int k = bits - 1; k >= 0; --k) text_ += (value >> k & 1) != 0 ? '1' : '0';
-    return *this;
-  }
-  AisWriter& spare(int bits) { return add(bits, 0); }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
 /// What a station reports, in the units of messages 1 and 18; the defaults are "not available".
 struct EncodedStation {
   std::uint32_t mmsi = 211'000'001;
@@ -38,21 +24,38 @@ struct EncodedStation {
   int off_position = 0;  ///< of an aid to navigation
 };
 
+/// A message as a text of 0 and 1.
+class AisWriter {
+ public:
+  AisWriter& add(int bits, std::int64_t value) {
+    for (int k = bits - 1; k >= 0; --k) text_ += (value >> k & 1) != 0 ? '1' : '0';
+    return *this;
+  }
+  AisWriter& spare(int bits) { return add(bits, 0); }
+  /// What all messages begin with.
+  AisWriter& begin(int type, const EncodedStation& s) { return add(6, type).spare(2).add(30, s.mmsi); }
+  AisWriter& movement(const EncodedStation& s) {
+    add(10, s.speed).add(1, s.accuracy).add(28, s.longitude);
+    return add(27, s.latitude).add(12, s.course);
+  }
+  AisWriter& dimensions(const EncodedStation& s) {
+    return add(9, s.bow).add(9, s.stern).add(6, s.port).add(6, s.starboard);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
 inline std::int64_t encoded_degrees(double degrees) { return std::llround(degrees * 600'000.0); }
 
 /// Message 1, 2 or 3.
 inline std::string class_a_message(const EncodedStation& s, int type = 1) {
   return AisWriter()
-      .add(6, type)
-      .spare(2)
-      .add(30, s.mmsi)
+      .begin(type, s)
       .add(4, s.status)
       .add(8, -128)
-      .add(10, s.speed)
-      .add(1, s.accuracy)
-      .add(28, s.longitude)
-      .add(27, s.latitude)
-      .add(12, s.course)
+      .movement(s)
       .add(9, 511)
       .add(6, s.second)
       .spare(2 + 3 + 1 + 19)
@@ -61,81 +64,47 @@ inline std::string class_a_message(const EncodedStation& s, int type = 1) {
 
 inline std::string static_message(const EncodedStation& s) {
   AisWriter writer;
-  writer.add(6, 5).spare(2).add(30, s.mmsi).spare(2 + 30 + 42 + 120).add(8, s.ship_type);
-  writer.add(9, s.bow).add(9, s.stern).add(6, s.port).add(6, s.starboard);
-  return writer.spare(4 + 20 + 8 + 120 + 2).text();
+  writer.begin(5, s).spare(2 + 30 + 42 + 120).add(8, s.ship_type);
+  return writer.dimensions(s).spare(4 + 20 + 8 + 120 + 2).text();
 }
 
 inline std::string search_aircraft_message(const EncodedStation& s) {
   return AisWriter()
-      .add(6, 9)
-      .spare(2)
-      .add(30, s.mmsi)
+      .begin(9, s)
       .add(12, 303)
-      .add(10, s.speed)
-      .add(1, s.accuracy)
-      .add(28, s.longitude)
-      .add(27, s.latitude)
-      .add(12, s.course)
+      .movement(s)
       .add(6, s.second)
       .spare(8 + 1 + 3 + 1 + 1 + 20)
       .text();
 }
 
 inline std::string class_b_message(const EncodedStation& s) {
-  return AisWriter()
-      .add(6, 18)
-      .spare(2)
-      .add(30, s.mmsi)
-      .spare(8)
-      .add(10, s.speed)
-      .add(1, s.accuracy)
-      .add(28, s.longitude)
-      .add(27, s.latitude)
-      .add(12, s.course)
-      .add(9, 511)
-      .add(6, s.second)
-      .spare(2 + 7 + 20)
-      .text();
+  return AisWriter().begin(18, s).spare(8).movement(s).add(9, 511).add(6, s.second).spare(2 + 7 + 20).text();
 }
 
 /// Message 19.
 inline std::string extended_class_b_message(const EncodedStation& s) {
   return AisWriter()
-      .add(6, 19)
-      .spare(2)
-      .add(30, s.mmsi)
+      .begin(19, s)
       .spare(8)
-      .add(10, s.speed)
-      .add(1, s.accuracy)
-      .add(28, s.longitude)
-      .add(27, s.latitude)
-      .add(12, s.course)
+      .movement(s)
       .add(9, 511)
       .add(6, s.second)
       .spare(4 + 120)
       .add(8, s.ship_type)
-      .add(9, s.bow)
-      .add(9, s.stern)
-      .add(6, s.port)
-      .add(6, s.starboard)
+      .dimensions(s)
       .spare(4 + 1 + 1 + 1 + 4)
       .text();
 }
 
 inline std::string aid_to_navigation_message(const EncodedStation& s) {
   return AisWriter()
-      .add(6, 21)
-      .spare(2)
-      .add(30, s.mmsi)
+      .begin(21, s)
       .spare(5 + 120)
       .add(1, s.accuracy)
       .add(28, s.longitude)
       .add(27, s.latitude)
-      .add(9, s.bow)
-      .add(9, s.stern)
-      .add(6, s.port)
-      .add(6, s.starboard)
+      .dimensions(s)
       .spare(4)
       .add(6, s.second)
       .add(1, s.off_position)
@@ -145,28 +114,14 @@ inline std::string aid_to_navigation_message(const EncodedStation& s) {
 
 /// Part B of message 24.
 inline std::string class_b_static_message(const EncodedStation& s) {
-  return AisWriter()
-      .add(6, 24)
-      .spare(2)
-      .add(30, s.mmsi)
-      .add(2, 1)
-      .add(8, s.ship_type)
-      .spare(42 + 42)
-      .add(9, s.bow)
-      .add(9, s.stern)
-      .add(6, s.port)
-      .add(6, s.starboard)
-      .spare(6)
-      .text();
+  return AisWriter().begin(24, s).add(2, 1).add(8, s.ship_type).spare(42 + 42).dimensions(s).spare(6).text();
 }
 
 /// Message 27: longitude and latitude in 1/10 minute, speed in knots, course in degrees. `late`: the position
 /// was 5 s old or more.
 inline std::string long_range_message(const EncodedStation& s, int late) {
   return AisWriter()
-      .add(6, 27)
-      .spare(2)
-      .add(30, s.mmsi)
+      .begin(27, s)
       .add(1, s.accuracy)
       .spare(1)
       .add(4, s.status)
