@@ -8,9 +8,6 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-}
 if [[ $preset != asan && $preset != tsan ]]; then echo "sanitize: usage: sanitize.sh asan | tsan [arguments of ctest]" >&2 && exit 2; fi
 shift
-# Tests that repeat themselves over many streams, scenes, bodies or bytes, beside those with the label long. Of streams,
-# the corpus and two crowds remain.
-longest='RandomStreams|LargeRound|Answers.AreNeverLater|Queries.AgreeWith|InAThousandScenes|BadSnapshot|FailedAdvance|TenThousandBullets'
 rooms=(archive contact bodies core processor speculation engine input motion parallel space stream broadphase world)
 # Tests that repeat themselves over many scenes, bodies or bytes, beside those with the label long.
 longest='LargeRound|Answers.AreNeverLater|Queries.AgreeWith|InAThousandScenes|BadSnapshot|FailedAdvance|TenThousandBullets'

@@ -22,7 +22,8 @@ source_of() {
   apt-get indextargets --format 'deb-src $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' | sort -u >"$sources/list"
   local apt=(apt-get -q -o "Dir::Etc::sourcelist=$sources/list" -o Dir::Etc::sourceparts=/dev/null
     -o "Dir::State::lists=$lists" -o "Dir::Cache=$sources")
-  (cd "$sources" && "${apt[@]}" update && "${apt[@]}" source --download-only "$1" && dpkg-source -x "$1"_*.dsc "$1.new")
+  (cd "$sources" && "${apt[@]}" update && "${apt[@]}" source --download-only "$1" && dpkg-source -x "$1"_*.dsc "$1.new") ||
+    { echo "windows: apt-get has no sources of $1 here; put them into $sources/$1" >&2; exit 1; }
   mv "$sources/$1.new" "$sources/$1"
 }
 # Usage: cross <sources> <folder of the build> [options]

@@ -39,7 +39,7 @@ class HeapCounter {
   }
   template <class... Ts>
   void count(const std::variant<Ts...>& value) {
-    std::visit([this](const auto& held) { count(held); }, value);
+    std::visit([this](const auto& held) { this->count(held); }, value);
   }
   template <class A, class B>
   void count(const std::pair<A, B>& value) {

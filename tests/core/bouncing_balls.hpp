@@ -146,7 +146,7 @@ class BouncingBalls final : core::Host {
         if (truth.balls[b].present) least = std::min(least, gap(a, b));
       if (!definition_.box) continue;
       for (int axis = 0; axis < definition_.dimensions; ++axis) {
-        if (definition_.periodic[static_cast<std::size_t>(axis)]) continue;
+        if (definition_.periodic[axis]) continue;
         const double at = truth.at(a, core_.time()).position[axis], radius = truth.balls[a].radius;
         least = std::min(
             {least, at - definition_.box->lower[axis] - radius, definition_.box->upper[axis] - at - radius});
@@ -256,7 +256,7 @@ class BouncingBalls final : core::Host {
   Vec3 way(std::uint32_t a, std::uint32_t b) const {
     Vec3 way = truth.at(b, core_.time()).position - truth.at(a, core_.time()).position;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!definition_.periodic[static_cast<std::size_t>(axis)]) continue;
+      if (!definition_.periodic[axis]) continue;
       const double period = definition_.box->upper[axis] - definition_.box->lower[axis];
       way[axis] -= period * std::round(way[axis] / period);
     }

@@ -136,7 +136,8 @@ TEST(RegionCells, FindAllWithinReach) {
     Balls balls(Periods{}, 0.0);
     std::vector<float> reaches;
     Random random(seed);
-    const auto place = [&](std::uint32_t number) {
+    const auto place = [&, period = period, least = least, most = most, spread = spread,
+                        dimensions = dimensions](std::uint32_t number) {
       Ball& ball = balls[number];
       for (int axis = 0; axis < 3; ++axis)
         ball.centre[axis] =

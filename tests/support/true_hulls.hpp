@@ -183,8 +183,12 @@ inline double signed_distance(const Placed& one, const Placed& other,
         if (above < 0 || above >= least) continue;
         const Vector foot = vector(point) - to.normals[k] * above;
         bool is_inside = true;
+        // The foot is in the planes of its own points but for rounding. Any slack beyond the others would let
+        // it leave a sharp vertex by a multiple of the slack; a foot that rounding puts outside is on an
+        // edge.
         for (std::size_t m = 0; m < to.normals.size() && is_inside; ++m)
-          is_inside = dot(to.normals[m], foot) <= to.offsets[m] + 1e-15L;
+          is_inside =
+              to.hull->planes[m].has == to.hull->planes[k].has || dot(to.normals[m], foot) <= to.offsets[m];
         if (is_inside) least = above;
       }
   };

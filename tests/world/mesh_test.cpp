@@ -111,7 +111,7 @@ TEST(MeshContact, EventsNameTheTriangle) {
     const std::uint32_t number = events[0].first == ball ? events[0].second_part : events[0].first_part;
     EXPECT_EQ(number, 2u * (4u + 2u)) << "row 1, column 2, the lower half";
     EXPECT_EQ(events[0].first == ball ? events[0].first_part : events[0].second_part, 0u);
-    EXPECT_EQ(events[0].normal, events[0].first == ball ? Vec3(0, 0, -1) : Vec3(0, 0, 1));
+    EXPECT_EQ(events[0].normal, (events[0].first == ball ? Vec3{0, 0, -1} : Vec3{0, 0, 1}));
   }
 }
 
