@@ -30,7 +30,10 @@ Periods periods_of(const Space& space) {
 
 }  // namespace
 
-bool worlds_have_cores() { return std::getenv("KINESPHERE_CORE") != nullptr; }
+std::atomic<bool>& worlds_have_cores() {
+  static std::atomic<bool> have{std::getenv("KINESPHERE_CORE") != nullptr};
+  return have;
+}
 
 Core::Core(const WorldDefinition& definition, double link)
     : dimensions_(definition.dimensions),

@@ -25,6 +25,7 @@
 // (J. Comp. Phys. 94, 1991). Bounds and their certificates are the paper's.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -42,8 +43,9 @@
 
 namespace kinesphere::core {
 
-/// Returns true if worlds are to find what is due with a core: if the environment sets KINESPHERE_CORE.
-bool worlds_have_cores();
+/// True if worlds that are created from now on find what is due with a core. At first, it is if the
+/// environment has the variable KINESPHERE_CORE.
+std::atomic<bool>& worlds_have_cores();
 
 struct CoreCounters {
   std::uint64_t due = 0;         ///< balls that came to be due
@@ -112,7 +114,8 @@ class Core {
   /// Returns a typical reach of small safe regions (length).
   double least_reach() const { return cells_.median_reach() * unit_; }
 
-  /// What a check may expect of two balls; of a ball with itself, `nothing` while it waits for settle().
+  /// What a check may expect of two balls. Of a ball with itself: `nothing` while it waits for settle(), and
+  /// that it is in its safe region if it meets others as a ball.
   enum class Claim { nothing, neighbours, meet_as_balls };
   /// Checks the invariants by brute force, as far as bounds tell. Returns the name of the first one that does
   /// not hold, or nullptr. Cost: O(n^2).

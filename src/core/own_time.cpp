@@ -57,8 +57,8 @@ double Core::stays(std::uint32_t number) const {
   const double room = double{ball.region} * unit_ - margin_ - balls_.growth(number);
   const double qq = norm_squared(q), qv = dot(q, v), vv = norm_squared(v);
   const bool moves = v != Vec3{}, grows = rate > 0.0 || limit > 0.0;
-  if (!moves && !grows) return infinity;
   if (!(room > 0.0) || !(qq < room * room)) return 0.0;
+  if (!moves && !grows) return infinity;
   // Of the slowest, squares underflow.
   if (vv < 0x1p-800)
     return rounding::first_crossing(room - (1.0 + 0x1p-40) * std::sqrt(qq), -(norm_one(v) + rate), -limit);

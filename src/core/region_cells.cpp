@@ -67,7 +67,8 @@ void RegionCells::set_width(Level& level, double width) {
 /// Cell on an axis. On an axis that repeats, centres lie in the primary box, hardly beyond for rounding, and
 /// ranges reach one box beyond.
 std::int64_t RegionCells::cell_on(const Level& level, int axis, double x) const {
-  return static_cast<std::int64_t>(std::floor(x * level.by_width[static_cast<std::size_t>(axis)]));
+  const double cell = std::floor(x * level.by_width[static_cast<std::size_t>(axis)]);
+  return static_cast<std::int64_t>(std::clamp(cell, -0x1p60, 0x1p60));
 }
 
 RegionCells::Range RegionCells::range_on(const Level& level, int axis, double x, double reach) const {

@@ -69,6 +69,13 @@ class World::Engine {
   std::vector<std::uint32_t> bodies_in(const Box& box) const {
     return kinesphere::bodies_in(box, state_, main_.dirty(), time());
   }
+  /// Returns the time before which the engine claims that nothing happens between two bodies, or a body and
+  /// PairCertificate::walls, apart from the ends of their windows. `times` are those of its certificates.
+  double claimed_until(std::uint32_t a, std::uint32_t b, const auto& times) const {
+    if (!state_.core) return times.of(a, b);
+    const core::Balls& balls = state_.core->balls();
+    return b == PairCertificate::walls ? balls[a].own : std::min(balls[a].due, balls[b].due);
+  }
   const WorldDefinition& definition() const { return bodies().definition(); }
   const Counters& counters() const { return main_.work().counters; }
   /// Returns the view of a body, with its last report moved into the primary box of a periodic space.

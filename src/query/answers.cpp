@@ -61,13 +61,15 @@ bool World::Engine::Answers::is_certified(std::uint32_t a, std::uint32_t b) cons
 double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b,
                                         const CertificateTimes& times) const {
   if (!is_certified(a, b)) return now_;
-  return std::max(std::min(times.of(a, b), engine_.main().certifier().earliest_window_end(a, b)), now_);
+  return std::max(
+      std::min(engine_.claimed_until(a, b, times), engine_.main().certifier().earliest_window_end(a, b)),
+      now_);
 }
 
 double World::Engine::Answers::recorded_of_walls(std::uint32_t number, const CertificateTimes& times) const {
   if (!is_certified(number, number)) return now_;
   const double end = engine_.main().certifier().walls_end_of(number);
-  return std::max(now_, std::min(times.of(number, PairCertificate::walls), end));
+  return std::max(now_, std::min(engine_.claimed_until(number, PairCertificate::walls, times), end));
 }
 
 void World::Engine::Answers::consider_touching(std::uint32_t number, ContactBoundary& first) const {
