@@ -116,11 +116,11 @@ bool Core::rebuild(double time, Host& host) {
       find_neighbours(number, host);
   }
   for (std::uint32_t number = 0; number < balls_.size(); ++number) {
-    const Ball& ball = balls_[number];
+    Ball& ball = balls_[number];
     if (!ball.is_present() || ball.about == none || ball.about == number) continue;
-    if (ball.is(Ball::passive) || ball.is(Ball::arriving)) return false;
-    const auto list = lists_.at(ball.list);
-    if (!std::binary_search(list.begin(), list.end(), ball.about)) return false;
+    const auto list = ball.list == none ? std::span<const std::uint32_t>() : lists_.at(ball.list);
+    // A region that has shrunk since it was chosen may have lost a neighbour.
+    if (!std::binary_search(list.begin(), list.end(), ball.about)) ball.about = number;
   }
   queue_.refill(balls_.all(), time);
   queued_for_ = balls_.size();

@@ -4,7 +4,9 @@
 
 namespace kinesphere {
 
-/// Returns the bound of a body as the core knows it: the ball around its shape, as far as it senses.
+/// Returns the bound of a body as the core knows it: the ball around its shape, as far as it senses. Two that
+/// touch or sense each other part by what reports say. A report and the next one may differ by two position
+/// errors; so the bound includes four more, for both on either side.
 Bound EventProcessor::extent_of(std::uint32_t number) const {
   const Body& body = bodies()[number];
   if (body.is_static()) {
@@ -12,7 +14,7 @@ Bound EventProcessor::extent_of(std::uint32_t number) const {
     return {.time = time_, .position = ball.moved.centre, .radius = ball.moved.radius + ball.margin};
   }
   Bound extent = body.bound;
-  extent.radius += sensor_reach(bodies(), number);
+  extent.radius += sensor_reach(bodies(), number) + 4.0 * body.position_error;
   return extent;
 }
 
