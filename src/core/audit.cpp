@@ -45,7 +45,7 @@ const char* Core::audit(const std::function<Claim(std::uint32_t, std::uint32_t)>
       // Two that are in touch wait for as long as the caller has put them off.
       const double gap =
           norm(balls_.between(a, b)) - (ball.radius + other.radius) - balls_.growth(a) - balls_.growth(b);
-      if (!(gap > std::max(tolerance_, link_))) continue;
+      if (!(gap > tolerance_)) continue;
       Bound image = balls_.bound(b);
       image.position += balls_.between(a, b) - (balls_.position(b) - balls_.position(a));
       const double meeting = earliest_meeting(own, image, balls_.time(), due, margin_);

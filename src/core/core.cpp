@@ -35,13 +35,12 @@ std::atomic<bool>& worlds_have_cores() {
   return have;
 }
 
-Core::Core(const WorldDefinition& definition, double link)
+Core::Core(const WorldDefinition& definition)
     : dimensions_(definition.dimensions),
       walls_(walls_of(definition)),
       unit_(region_unit(definition)),
       margin_(rounding_margin(definition)),
       tolerance_(definition.contact_tolerance),
-      link_(link),
       balls_(periods_of(Space(definition)), definition.start_time),
       cells_(balls_.periods().length / unit_, definition.dimensions) {
   for (int axis = 0; axis < 3; ++axis)
@@ -99,16 +98,24 @@ std::optional<Core::Certificate> Core::certificate_of(std::uint32_t number) cons
   return Certificate{ball.about, ball.due};
 }
 
+std::vector<float> Core::reaches() const {
+  std::vector<float> all(balls_.size());
+  for (std::uint32_t number = 0; number < balls_.size(); ++number)
+    if (balls_[number].has_region()) all[number] = cells_.reach_of(balls_[number].slot);
+  return all;
+}
+
 bool Core::rebuild(double time, Host& host) {
   balls_.set_time(time);
-  if (!balls_.has_valid_drifts()) return false;
+  if (!balls_.has_valid_drifts() || reaches_read_.size() != balls_.size()) return false;
   for (std::uint32_t number = 0; number < balls_.size(); ++number) {
     Ball& ball = balls_[number];
     if (!balls_.is_valid(number) || !(ball.radius < 0x1p32 * unit_)) return false;
     if (!ball.is_present()) continue;
     ++present_;
     if (!ball.is(Ball::passive)) ball.list = lists_.add();
-    cells_.enter(balls_, number, std::max(reach(ball), 0x1p-100F));
+    if (!(reaches_read_[number] > 0.0F && reaches_read_[number] < 0x1p34F)) return false;
+    cells_.enter(balls_, number, reaches_read_[number]);
   }
   for (std::uint32_t number = 0; number < balls_.size(); ++number) {
     const Ball& ball = balls_[number];
@@ -118,10 +125,9 @@ bool Core::rebuild(double time, Host& host) {
   for (std::uint32_t number = 0; number < balls_.size(); ++number) {
     Ball& ball = balls_[number];
     if (!ball.is_present() || ball.about == none || ball.about == number) continue;
-    const auto list = ball.list == none ? std::span<const std::uint32_t>() : lists_.at(ball.list);
-    // A region that has shrunk since it was chosen may have lost a neighbour.
-    if (!std::binary_search(list.begin(), list.end(), ball.about)) ball.about = number;
+    if (!contains(ball.about) || ball.is(Ball::passive)) return false;
   }
+  reaches_read_.clear();
   queue_.refill(balls_.all(), time);
   queued_for_ = balls_.size();
   return true;
@@ -141,7 +147,8 @@ Result<void> Core::handle_next(Host& host) {
 Result<void> Core::handle(std::uint32_t number, Host& host) {
   const std::uint32_t other = balls_[number].about;
   if (other == none) return handle_own(number, host);
-  if (other == number) {
+  // One that was linked may be gone.
+  if (other == number || !contains(other)) {
     schedule(number, host);
     return {};
   }
@@ -205,6 +212,9 @@ void Core::schedule(std::uint32_t number, Host& host) {
       consider(ball, other, apart_until(number, other, ball.second - balls_.time(), host));
     }
   }
+  if (ball.is(Ball::linked))
+    for (const std::uint32_t other : host.linked_with(number))
+      consider(ball, other, host.unchanged_until(number, other));
   queue_.push(balls_.all(), number);
 }
 
@@ -228,7 +238,7 @@ std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32
                           duration,
                           balls_.position(number),
                           ball.velocity,
-                          ball.radius + balls_.growth(number) + margin_ + link_of(ball),
+                          ball.radius + balls_.growth(number) + margin_,
                           balls_.growth_speed(number),
                           ball.acceleration_limit,
                           balls_.any_grows(),
@@ -240,7 +250,7 @@ std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32
   for (std::size_t k = 0; k < neighbours.size(); ++k) {
     BoundAt other = balls_.bound_now(neighbours[k]);
     other.centre = own.centre + balls_.nearest(other.centre - own.centre);
-    if (!QuickReject(own, other).stay_apart(duration, margin_ + link_of(ball))) found |= 1u << k;
+    if (!QuickReject(own, other).stay_apart(duration, margin_)) found |= 1u << k;
   }
   return found;
 }
@@ -251,11 +261,10 @@ double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double h
   const BoundAt own = balls_.bound_now(number);
   BoundAt other = balls_.bound_now(neighbour);
   if (balls_.periods().any) other.centre = own.centre + balls_.nearest(other.centre - own.centre);
-  const double link = link_of(balls_[number]);
   const QuickReject pair(own, other);
-  if (pair.stay_apart(horizon, margin_ + link)) return infinity;
-  if (pair.is_near(std::max(tolerance_, link))) return host.unchanged_until(number, neighbour);
-  const double time = rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_ + link));
+  if (pair.stay_apart(horizon, margin_)) return infinity;
+  if (pair.is_near(tolerance_)) return host.unchanged_until(number, neighbour);
+  const double time = rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_));
   return time > balls_.time() ? time : host.unchanged_until(number, neighbour);
 }
 

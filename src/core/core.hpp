@@ -31,6 +31,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/balls.hpp"
@@ -57,9 +58,8 @@ struct CoreCounters {
 
 class Core {
  public:
-  /// The space, walls and start time are those of the definition, which has been checked. Balls that are
-  /// linked concern each other up to the gap `link` (length).
-  Core(const WorldDefinition& definition, double link);
+  /// The space, walls and start time are those of the definition, which has been checked.
+  explicit Core(const WorldDefinition& definition);
 
   double time() const { return balls_.time(); }
   /// Advances the clock. Precondition: nothing is due before.
@@ -93,6 +93,11 @@ class Core {
   /// Serializes what rebuild() cannot find again.
   static void serialize(auto& self, auto& archive) {
     archive(self.balls_, self.first_radius_, self.measured_);
+    if constexpr (std::is_const_v<std::remove_reference_t<decltype(self)>>) {
+      archive(self.reaches());
+    } else {
+      archive(self.reaches_read_);
+    }
   }
   /// Makes the rest anew after reading, at this time. Returns false if no core could have been so.
   bool rebuild(double time, Host& host);
@@ -110,7 +115,9 @@ class Core {
   std::vector<std::uint32_t> find(const Vec3& centre, double radius) const;
   /// Returns the centre (length) and the reach (length) of the safe region of a ball: it is within.
   Vec3 region_centre(std::uint32_t number) const { return region_centre(balls_[number]); }
-  double region_reach(std::uint32_t number) const { return double{reach(balls_[number])} * unit_; }
+  double region_reach(std::uint32_t number) const {
+    return double{cells_.reach_of(balls_[number].slot)} * unit_;
+  }
   /// Returns a typical reach of small safe regions (length).
   double least_reach() const { return cells_.median_reach() * unit_; }
 
@@ -123,6 +130,7 @@ class Core {
 
  private:
   // core.cpp: the loop.
+  std::vector<float> reaches() const;
   Result<void> handle(std::uint32_t number, Host& host);
   Result<void> handle_own(std::uint32_t number, Host& host);
   void postpone(std::uint32_t number, double time);
@@ -131,8 +139,6 @@ class Core {
   std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
                            double duration) const;
   double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon, Host& host) const;
-  /// How much more than its radius a scan of a ball takes into account (length).
-  double link_of(const Ball& ball) const { return ball.is(Ball::linked) ? link_ : 0.0; }
   void prefetch() const;
 
   // safe_regions.cpp
@@ -164,16 +170,16 @@ class Core {
   double unit_;       ///< one region unit (length), a power of two
   double margin_;     ///< for rounding (length)
   double tolerance_;  ///< contact tolerance (length)
-  double link_;       ///< gap up to which linked balls concern each other (length)
 
   Balls balls_;
   NeighbourLists lists_;
   RegionCells cells_;
   DueQueue queue_;
-  double first_radius_ = 0.0;   ///< of the first safe region of a ball (length)
-  std::size_t present_ = 0;     ///< how many balls there are
-  std::size_t measured_ = 0;    ///< how many there were when first_radius_ was chosen
-  std::size_t queued_for_ = 0;  ///< how many numbers there were when the queue was filled
+  double first_radius_ = 0.0;        ///< of the first safe region of a ball (length)
+  std::vector<float> reaches_read_;  ///< from a snapshot: with which safe regions were entered
+  std::size_t present_ = 0;          ///< how many balls there are
+  std::size_t measured_ = 0;         ///< how many there were when first_radius_ was chosen
+  std::size_t queued_for_ = 0;       ///< how many numbers there were when the queue was filled
   CoreCounters counters_;
   // Members only to reuse their memory.
   RegionSearch search_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "kinesphere/result.hpp"
 #include "kinesphere/vec3.hpp"
@@ -13,6 +14,9 @@ namespace kinesphere::core {
 /// that time.
 class Host {
  public:
+  /// Returns those with which the ball is linked: it touches or senses them. They concern it wherever they
+  /// are, until the link ends. The result holds until the next call.
+  virtual std::span<const std::uint32_t> linked_with(std::uint32_t ball) = 0;
   /// Returns false if the two never have to do with each other.
   virtual bool may_meet(std::uint32_t a, std::uint32_t b) = 0;
   /// Returns a time before which nothing happens between two neighbours, from what is known of them; now if

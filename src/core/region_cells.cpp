@@ -9,10 +9,6 @@
 namespace kinesphere::core {
 namespace {
 
-/// Rounding of the comparison, with a factor in hand: coordinates are exact, so their difference is rounded
-/// once, and its image in a periodic box once more.
-constexpr float raised = 1.0F + 0x1p-18F;
-
 std::int64_t wrapped(std::int64_t cell, std::int64_t count) {
   if (count == 0) return cell;
   if (cell < 0) return cell + count;
@@ -78,7 +74,7 @@ RegionCells::Range RegionCells::range_on(const Level& level, int axis, double x,
 }
 
 void RegionCells::enter(Balls& balls, std::uint32_t ball, float reach) {
-  insert(balls, ball, reach * raised);
+  insert(balls, ball, reach);
   if (++entered_ > regions_ + 64) rebuild(balls);
 }
 
@@ -207,7 +203,7 @@ void RegionCells::insert_all(Balls& balls, const std::vector<Entry>& all) {
 }
 
 void RegionCells::search(const Ball& ball, float reach, RegionSearch& search) const {
-  const RegionQuery query{ball.centre[0], ball.centre[1], ball.centre[2], reach * raised};
+  const RegionQuery query{ball.centre[0], ball.centre[1], ball.centre[2], reach};
   search.count = 0;
   bool crosses = false;
   for (std::size_t level = 0; level < most_levels; ++level)

@@ -43,9 +43,13 @@ class RegionCells {
   /// `period`: of the space, in region units; 0 on axes that do not repeat. `dimensions`: 2 or 3.
   RegionCells(const Vec3& period, int dimensions);
 
+  /// Returns a reach that covers the rounding of comparisons. All reaches below are raised.
+  static float raised(float reach) { return reach * (1.0F + 0x1p-18F); }
   /// Enters the safe region of a ball, and sets its slot. `reach` > 0.
   void enter(Balls& balls, std::uint32_t ball, float reach);
   void leave(Balls& balls, std::uint32_t ball);
+  /// Returns the reach with which the region in this slot was entered.
+  float reach_of(std::uint32_t slot) const { return blocks_[slot / lanes].reach[slot % lanes]; }
   /// Finds all balls whose regions come within reach of that of `ball`.
   void search(const Ball& ball, float reach, RegionSearch& search) const;
   /// Chooses levels and the widths of cells anew, for the regions that there are. All slots change. Cost:

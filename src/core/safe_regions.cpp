@@ -39,9 +39,8 @@ Vec3 Core::region_centre(const Ball& ball) const {
 /// Returns the reach of a ball's safe region (region units), raised for rounding and for the error that
 /// images in a periodic box have in single precision.
 float Core::reach(const Ball& ball) const {
-  const double lengths =
-      ball.radius + std::max(tolerance_, link_) + 0x1p-21 * norm_one(balls_.periods().length);
-  return static_cast<float>((double{ball.region} + lengths / unit_) * (1.0 + 0x1p-20));
+  const double lengths = ball.radius + tolerance_ + 0x1p-21 * norm_one(balls_.periods().length);
+  return RegionCells::raised(static_cast<float>((double{ball.region} + lengths / unit_) * (1.0 + 0x1p-20)));
 }
 
 /// Returns the radius (length) of the widest safe region with which two neighbours can meet in one image only
@@ -50,8 +49,7 @@ double Core::widest_region(const Ball& ball) const {
   double widest = infinity;
   for (int axis = 0; axis < 3; ++axis)
     if (balls_.periods().length[axis] > 0.0)
-      widest = std::min(
-          widest, 0.49 * (0.25 * balls_.periods().length[axis] - ball.radius - std::max(tolerance_, link_)));
+      widest = std::min(widest, 0.49 * (0.25 * balls_.periods().length[axis] - ball.radius - tolerance_));
   return widest;
 }
 
@@ -146,7 +144,7 @@ void Core::enter_region(std::uint32_t number, double radius, Host& host) {
 
 /// Makes those within reach the neighbours of the ball, and it theirs; others are no longer.
 void Core::find_neighbours(std::uint32_t number, Host& host) {
-  cells_.search(balls_[number], reach(balls_[number]), search_);
+  cells_.search(balls_[number], cells_.reach_of(balls_[number].slot), search_);
   std::vector<std::uint32_t>& found = search_.found;
   if (balls_[number].is(Ball::passive)) {
     for (const std::uint32_t other : found) {
@@ -191,7 +189,7 @@ void Core::forget_neighbours(std::uint32_t number) {
   const Ball& ball = balls_[number];
   if (ball.is(Ball::arriving)) return;
   if (ball.is(Ball::passive)) {
-    cells_.search(ball, reach(ball), search_);
+    cells_.search(ball, cells_.reach_of(ball.slot), search_);
     for (const std::uint32_t other : search_.found) {
       const auto list =
           balls_[other].list == none ? std::span<const std::uint32_t>() : lists_.at(balls_[other].list);

@@ -4,9 +4,7 @@
 
 namespace kinesphere {
 
-/// Returns the bound of a body as the core knows it: the ball around its shape, as far as it senses. Two that
-/// touch or sense each other part by what reports say. A report and the next one may differ by two position
-/// errors; so the bound includes four more, for both on either side.
+/// Returns the bound of a body as the core knows it: the ball around its shape, as far as it senses.
 Bound EventProcessor::extent_of(std::uint32_t number) const {
   const Body& body = bodies()[number];
   if (body.is_static()) {
@@ -14,7 +12,7 @@ Bound EventProcessor::extent_of(std::uint32_t number) const {
     return {.time = time_, .position = ball.moved.centre, .radius = ball.moved.radius + ball.margin};
   }
   Bound extent = body.bound;
-  extent.radius += sensor_reach(bodies(), number) + 4.0 * body.position_error;
+  extent.radius += sensor_reach(bodies(), number);
   return extent;
 }
 
@@ -73,6 +71,15 @@ void EventProcessor::settle_core() {
   core().settle(round_, *this);
 }
 
+std::span<const std::uint32_t> EventProcessor::linked_with(std::uint32_t ball) {
+  partners_.clear();
+  for (const ContactRecord& contact : contacts().partners_of(ball)) partners_.push_back(contact.partner);
+  for (const OverlapRecord& overlap : contacts().overlaps_of(ball)) partners_.push_back(overlap.partner);
+  std::sort(partners_.begin(), partners_.end());
+  partners_.erase(std::unique(partners_.begin(), partners_.end()), partners_.end());
+  return partners_;
+}
+
 bool EventProcessor::may_meet(std::uint32_t a, std::uint32_t b) { return bodies().may_meet(a, b); }
 
 double EventProcessor::unchanged_until(std::uint32_t a, std::uint32_t b) {
@@ -87,6 +94,7 @@ double EventProcessor::unchanged_until(std::uint32_t a, std::uint32_t b) {
 }
 
 Result<double> EventProcessor::recheck(std::uint32_t a, std::uint32_t b) {
+  if (!bodies().may_meet(a, b)) return infinity;
   const auto until = check_pair(a, b);
   if (!until) return until.error();
   return keep_time(a, b, *until, certifier().earliest_window_end(a, b));

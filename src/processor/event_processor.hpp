@@ -203,6 +203,7 @@ class alignas(128) EventProcessor final : public core::Host {
   void note_reports(std::span<const std::uint32_t> numbers);
   void note_link_change(std::uint32_t a, std::uint32_t b);
   double keep_time(std::uint32_t a, std::uint32_t b, const std::optional<double>& until, double end);
+  std::span<const std::uint32_t> linked_with(std::uint32_t ball) override;
   bool may_meet(std::uint32_t a, std::uint32_t b) override;
   double unchanged_until(std::uint32_t a, std::uint32_t b) override;
   Result<double> recheck(std::uint32_t a, std::uint32_t b) override;
@@ -267,7 +268,7 @@ class alignas(128) EventProcessor final : public core::Host {
   std::vector<std::uint32_t> linked_;  ///< with a core: bodies whose contacts have changed
   SpeculationLog* log_ = nullptr;      ///< nullptr for the processor with all bodies
   // Members only to reuse their memory.
-  std::vector<std::uint32_t> round_;
+  std::vector<std::uint32_t> round_, partners_;
   std::vector<InflatedBound> entered_;  ///< bounds with which the bodies of the next search() entered
   SearchResults found_;
 };

@@ -18,7 +18,7 @@ struct WorldState {
         contacts(definition),
         broad_phase(bodies.space()),
         window_policy(longest_way(bodies.definition()), definition.dimensions) {
-    if (core::worlds_have_cores()) core.emplace(definition, contacts.rule().release_gap());
+    if (core::worlds_have_cores()) core.emplace(definition);
   }
 
   Bodies bodies;

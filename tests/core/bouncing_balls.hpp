@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -94,7 +95,7 @@ inline void bounce_off(Vec3& first, Vec3& second, double mass, double other, con
 class BouncingBalls final : core::Host {
  public:
   BouncingBalls(const WorldDefinition& definition, TrueMotion motion)
-      : truth(std::move(motion)), definition_(definition), core_(definition, 0.0) {
+      : truth(std::move(motion)), definition_(definition), core_(definition) {
     for (std::uint32_t k = 0; k < truth.balls.size(); ++k) enter(k);
   }
 
@@ -198,6 +199,7 @@ class BouncingBalls final : core::Host {
   }
 
   // What the core asks. Walls count as a partner, core::none.
+  std::span<const std::uint32_t> linked_with(std::uint32_t) override { return {}; }
   bool may_meet(std::uint32_t, std::uint32_t) override { return true; }
   double unchanged_until(std::uint32_t a, std::uint32_t b) override {
     if (const auto known = put_off_.find(std::minmax(a, b)); known != put_off_.end())

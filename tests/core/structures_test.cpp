@@ -144,7 +144,7 @@ TEST(RegionCells, FindAllWithinReach) {
             static_cast<float>(random.uniform(0.0, spread) - (period > 0.0 ? 0.0 : 0.5 * spread));
       if (dimensions == 2) ball.centre[2] = 0.0F;
       reaches[number] = static_cast<float>(log_uniform(random, least, most));
-      cells.enter(balls, number, reaches[number]);
+      cells.enter(balls, number, core::RegionCells::raised(reaches[number]));
     };
     constexpr std::uint32_t count = 400;
     for (std::uint32_t number = 0; number < count; ++number) {
@@ -158,7 +158,7 @@ TEST(RegionCells, FindAllWithinReach) {
       cells.leave(balls, number);
       place(number);
       if (step % 100 == 0) cells.rebuild(balls);
-      cells.search(balls[number], reaches[number], search);
+      cells.search(balls[number], core::RegionCells::raised(reaches[number]), search);
       std::vector<std::uint32_t>& found = search.found;
       std::sort(found.begin(), found.end());
       ASSERT_TRUE(std::adjacent_find(found.begin(), found.end()) == found.end()) << "step " << step;
