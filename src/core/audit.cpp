@@ -48,8 +48,9 @@ const char* Core::audit(const std::function<Claim(std::uint32_t, std::uint32_t)>
       if (!(gap > tolerance_)) continue;
       Bound image = balls_.bound(b);
       image.position += balls_.between(a, b) - (balls_.position(b) - balls_.position(a));
-      const double meeting = earliest_meeting(own, image, balls_.time(), due, margin_);
-      if (meeting < due - 0x1p-16 * (due - balls_.time()) - 0x1p-40 * std::abs(due)) return "D";
+      // Both times are early, by up to a hundredth, each by another part.
+      const double meeting = earliest_meeting(own, image, balls_.time(), due);
+      if (meeting < due - 0x1p-6 * (due - balls_.time()) - 0x1p-40 * std::abs(due)) return "D";
     }
   }
   return nullptr;

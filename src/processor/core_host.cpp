@@ -74,7 +74,13 @@ void EventProcessor::settle_core() {
 std::span<const std::uint32_t> EventProcessor::linked_with(std::uint32_t ball) {
   partners_.clear();
   for (const ContactRecord& contact : contacts().partners_of(ball)) partners_.push_back(contact.partner);
-  for (const OverlapRecord& overlap : contacts().overlaps_of(ball)) partners_.push_back(overlap.partner);
+  const auto overlaps = contacts().overlaps_of(ball);
+  for (auto next = overlaps.begin(); next != overlaps.end();) {
+    const std::uint32_t partner = next->partner;
+    partners_.push_back(partner);
+    next = std::partition_point(next, overlaps.end(),
+                                [=](const OverlapRecord& overlap) { return overlap.partner <= partner; });
+  }
   std::sort(partners_.begin(), partners_.end());
   partners_.erase(std::unique(partners_.begin(), partners_.end()), partners_.end());
   return partners_;
