@@ -84,7 +84,7 @@ void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
   settling_.assign(changed.begin(), changed.end());
   place_arrivals(changed, host);
   for (const std::uint32_t number : changed) compute_own(number, host);
-  for (std::size_t k = 0; k < settling_.size(); ++k) schedule(settling_[k], host);
+  for (const std::uint32_t number : settling_) schedule(number, host);
   if (balls_.size() <= 2 * queued_for_) return;
   queue_.refill(balls_.all(), balls_.time());
   queued_for_ = balls_.size();

@@ -118,8 +118,8 @@ class Core {
   double region_reach(std::uint32_t number) const {
     return double{cells_.reach_of(balls_[number].slot)} * unit_;
   }
-  /// Returns a typical reach of small safe regions (length).
-  double least_reach() const { return cells_.median_reach() * unit_; }
+  /// Returns the median reach of safe regions (length), as it was when cells were last chosen.
+  double median_reach() const { return cells_.median_reach() * unit_; }
 
   /// What a check may expect of two balls. Of a ball with itself: `nothing` while it waits for settle(), and
   /// that it is in its safe region if it meets others as a ball.

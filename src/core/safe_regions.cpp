@@ -63,7 +63,6 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
     const bool is_far = norm_one(ball.velocity) * (balls_.time() - ball.time) > longest_flight * radius;
     if (is_wide || is_far)
       if (auto refreshed = host.refresh(number); !refreshed) return refreshed;
-    cells_.leave(balls_, number);
     enter_region(number, next_radius(number), host);
     find_neighbours(number, host);
   }
@@ -136,7 +135,9 @@ void Core::place_region(std::uint32_t number, double radius) {
   }
 }
 
+/// Gives the ball another safe region, which has no part in the lists of neighbours yet.
 void Core::enter_region(std::uint32_t number, double radius, Host& host) {
+  cells_.leave(balls_, number);
   place_region(number, radius);
   cells_.enter(balls_, number, reach(balls_[number]));
   if (balls_.periods().any) host.note_image(number, region_centre(balls_[number]));
@@ -210,7 +211,6 @@ void Core::place_arrivals(std::span<const std::uint32_t> changed, Host& host) {
   if (arrivals.empty()) return;
   choose_first_radius();
   for (const std::uint32_t number : arrivals) {
-    cells_.leave(balls_, number);
     enter_region(number, first_radius_, host);
   }
   if (2 * arrivals.size() > present_) cells_.rebuild(balls_);

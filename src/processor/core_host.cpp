@@ -52,9 +52,8 @@ void EventProcessor::note_link_change(std::uint32_t a, std::uint32_t b) {
 void EventProcessor::settle_core() {
   for (const std::uint32_t number : round_) {
     Body& body = bodies()[number];
-    const bool is_known = core().contains(number);
-    if (is_known && body.relocated) core().leave(number);
-    if (is_known && !body.relocated)
+    if (body.relocated && core().contains(number)) core().leave(number);
+    if (core().contains(number))
       core().set_bound(number, extent_of(number));
     else
       enter_core(number);

@@ -132,7 +132,7 @@ void World::Engine::Queries::restrict(std::vector<std::uint32_t>& numbers) const
 double World::Engine::Queries::finest_length() const {
   const double tolerance = engine_.definition().contact_tolerance;
   const auto& core = engine_.state().core;
-  const double least = core ? core->least_reach() : engine_.broad_phase().least_width();
+  const double least = core ? core->median_reach() : engine_.broad_phase().least_width();
   return std::clamp(least, tolerance, 0x1p30 * tolerance);
 }
 
