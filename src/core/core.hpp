@@ -5,7 +5,9 @@
 // advances. Nothing else is needed for no contact to be missed:
 //
 //   H  The centre of a ball is in its safe region until Ball::own, and the ball meets no wall before.
-//   N  If the safe regions of two balls come within reach of each other, each is in the other's list.
+//   N  If the safe regions of two balls come within reach of each other, each is in the other's list, unless
+//      the two never have to do with each other (Host::may_meet()). A ball that never moves, a passive one,
+//      has no list: it is in those of others.
 //   D  Of two neighbours, at least one has computed Ball::due since the velocity or the safe region of either
 //      last changed, and the two do not touch before it. No ball is due after its own time.
 //
