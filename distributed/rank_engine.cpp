@@ -184,7 +184,7 @@ Result<void> DistributedWorld::RankEngine::spot_check(PoolLease& lease) {
   std::array<std::uint64_t, 3> sums{here->any, here->moving, own_probes};
   communicator_.sum(sums);
   const SpotChecks::Census census{sums[0] > 0, sums[1], communicator_.least(here->least_time)};
-  rank_.state.spot_checks.note_check(rank_.state.window_policy, time(), census, sums[2]);
+  rank_.state.spot_checks.note_check(rank_.state.window_policy.main_length(), time(), census, sums[2]);
   return {};
 }
 

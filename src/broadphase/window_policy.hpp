@@ -12,6 +12,7 @@
 
 #include "kinesphere/vec3.hpp"
 #include "number/infinity.hpp"
+#include "number/powers.hpp"
 
 namespace kinesphere {
 
@@ -100,6 +101,8 @@ class WindowPolicy {
   bool is_chosen() const { return typical_way_ > 0.0; }
   /// Rung of the main windows.
   int main_rung() const { return main_rung_; }
+  /// Returns the length of main windows; infinity if none was chosen.
+  double main_length() const { return is_chosen() ? power_of_two(main_rung_) : infinity; }
   /// Chooses windows before any statistics of starts exist: a body with the speed bound `typical` goes `way`
   /// (length, > 0), or the longest way if that is less, in a main window.
   void choose(double way, const SpeedBound& typical);

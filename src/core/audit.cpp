@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/contact_predictor.hpp"
 #include "core/core.hpp"
 
 namespace kinesphere::core {
@@ -15,9 +16,9 @@ const char* Core::audit(const std::function<Claim(std::uint32_t, std::uint32_t)>
     const Ball& ball = balls_[a];
     const Bound own = balls_.bound(a);
     const double left = std::min(ball.own, balls_.time() + 1e6 * std::max(1.0, std::abs(balls_.time())));
-    // A ball that may have left its safe region is due now.
+    // A ball that may have left its safe region is due now, or at the next time that there is.
     for (const double time : {balls_.time(), 0.5 * (balls_.time() + left), left})
-      if (claim_of(a, a) == Claim::meet_as_balls && ball.own > balls_.time() &&
+      if (claim_of(a, a) == Claim::meet_as_balls && ball.own > just_after(balls_.time()) &&
           norm(own.centre_at(time) - region_centre(ball)) + (own.radius_at(time) - own.radius) >
               double{ball.region} * unit_)
         return "H";

@@ -116,7 +116,7 @@ class Balls {
   bool is_valid(std::uint32_t number) const {
     const Ball& ball = balls_[number];
     if (!ball.is_present()) return true;
-    const auto is_ordinary = [](double value) { return std::abs(value) < 0x1p32; };
+    const auto is_ordinary = [](double value) { return std::abs(value) < 0x1p62; };
     return is_finite(ball.position) && is_finite(ball.velocity) && std::isfinite(ball.time) &&
            ball.time <= now_ && ball.radius >= 0.0 && std::isfinite(ball.radius) &&
            ball.acceleration_limit >= 0.0 && std::isfinite(ball.acceleration_limit) &&

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
 
 #include "bodies/body_bounds.hpp"
 #include "bound/quick_reject.hpp"
@@ -29,11 +28,6 @@ Periods periods_of(const Space& space) {
 }
 
 }  // namespace
-
-std::atomic<bool>& worlds_have_cores() {
-  static std::atomic<bool> have{std::getenv("KINESPHERE_CORE") != nullptr};
-  return have;
-}
 
 Core::Core(const WorldDefinition& definition)
     : dimensions_(definition.dimensions),
@@ -83,7 +77,13 @@ void Core::set_bound(std::uint32_t number, const Bound& bound) {
 void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
   settling_.assign(changed.begin(), changed.end());
   place_arrivals(changed, host);
-  for (const std::uint32_t number : changed) compute_own(number, host);
+  for (const std::uint32_t number : changed) {
+    compute_own(number, host);
+    // It may be elsewhere. Others find it by its safe region.
+    if (balls_[number].is(Ball::at_wall) || balls_[number].own > balls_.time()) continue;
+    move_region(number, host);
+    compute_own_later(number, host);
+  }
   for (const std::uint32_t number : settling_) schedule(number, host);
   if (balls_.size() <= 2 * queued_for_) return;
   queue_.refill(balls_.all(), balls_.time());
@@ -98,46 +98,10 @@ std::optional<Core::Certificate> Core::certificate_of(std::uint32_t number) cons
   return Certificate{ball.about, ball.due};
 }
 
-std::vector<float> Core::reaches() const {
-  std::vector<float> all(balls_.size());
-  for (std::uint32_t number = 0; number < balls_.size(); ++number)
-    if (balls_[number].has_region()) all[number] = cells_.reach_of(balls_[number].slot);
-  return all;
-}
-
-bool Core::rebuild(double time, Host& host) {
-  balls_.set_time(time);
-  if (!balls_.has_valid_drifts() || reaches_read_.size() != balls_.size()) return false;
-  for (std::uint32_t number = 0; number < balls_.size(); ++number) {
-    Ball& ball = balls_[number];
-    if (!balls_.is_valid(number) || !(ball.radius < 0x1p32 * unit_)) return false;
-    if (!ball.is_present()) continue;
-    ++present_;
-    if (!ball.is(Ball::passive)) ball.list = lists_.add();
-    if (!(reaches_read_[number] > 0.0F && reaches_read_[number] < 0x1p34F)) return false;
-    cells_.enter(balls_, number, reaches_read_[number]);
-  }
-  for (std::uint32_t number = 0; number < balls_.size(); ++number) {
-    const Ball& ball = balls_[number];
-    if (ball.is_present() && !ball.is(Ball::passive) && !ball.is(Ball::arriving))
-      find_neighbours(number, host);
-  }
-  for (std::uint32_t number = 0; number < balls_.size(); ++number) {
-    Ball& ball = balls_[number];
-    if (!ball.is_present() || ball.about == none || ball.about == number) continue;
-    if (!contains(ball.about) || ball.is(Ball::passive)) return false;
-  }
-  reaches_read_.clear();
-  queue_.refill(balls_.all(), time);
-  queued_for_ = balls_.size();
-  return true;
-}
-
 Result<void> Core::handle_next(Host& host) {
   const DueQueue::Entry first = queue_.first(balls_.all(), balls_.time());
   queue_.pop();
   prefetch();
-  ++counters_.due;
   ScopeGuard again([&] { queue_.push(balls_.all(), first.ball); });
   auto handled = handle(first.ball, host);
   if (handled) again.dismiss();
@@ -158,6 +122,8 @@ Result<void> Core::handle(std::uint32_t number, Host& host) {
   const Result<double> until = host.recheck(number, other);
   if (!until) return until.error();
   postpone(number, *until);
+  // The other one may be due about the same.
+  if (balls_[other].about == number && balls_[other].due <= balls_.time()) postpone(other, *until);
   return {};
 }
 
@@ -201,15 +167,16 @@ void Core::schedule(std::uint32_t number, Host& host) {
   ball.about = none;
   ball.due = ball.second = ball.own;
   const auto neighbours = lists_.at(ball.list);
-  ++counters_.scans;
-  counters_.scanned += neighbours.size();
+  Counters& work = host.work_counters();
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     const auto some = neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes));
     for (std::uint32_t left = candidates(number, some, ball.second - balls_.time()); left != 0;
          left &= left - 1) {
       const std::uint32_t other = some[static_cast<std::size_t>(std::countr_zero(left))];
-      ++counters_.candidates;
-      consider(ball, other, apart_until(number, other, ball.second - balls_.time(), host));
+      const double until = apart_until(number, other, ball.second - balls_.time(), host);
+      ++work.certificates;
+      if (until < ball.own) ++work.hot_pairs;
+      consider(ball, other, until);
     }
   }
   if (ball.is(Ball::linked))
@@ -287,7 +254,5 @@ void Core::prefetch() const {
   if (ball.about != none && ball.about != next) return fetch_list(balls_[ball.about]);
   for (const std::uint32_t other : lists_.at(ball.list)) fetch(other);
 }
-
-std::size_t Core::bytes() const { return balls_.bytes() + lists_.bytes() + cells_.bytes() + queue_.bytes(); }
 
 }  // namespace kinesphere::core

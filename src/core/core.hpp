@@ -27,13 +27,13 @@
 // (J. Comp. Phys. 94, 1991). Bounds and their certificates are the paper's.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/balls.hpp"
@@ -46,18 +46,6 @@
 
 namespace kinesphere::core {
 
-/// True if worlds that are created from now on find what is due with a core. At first, it is if the
-/// environment has the variable KINESPHERE_CORE.
-std::atomic<bool>& worlds_have_cores();
-
-struct CoreCounters {
-  std::uint64_t due = 0;         ///< balls that came to be due
-  std::uint64_t regions = 0;     ///< safe regions that were chosen
-  std::uint64_t scans = 0;       ///< lists that were scanned
-  std::uint64_t scanned = 0;     ///< neighbours in them
-  std::uint64_t candidates = 0;  ///< those of them that may be met before what is known to be due
-};
-
 class Core {
  public:
   /// The space, walls and start time are those of the definition, which has been checked.
@@ -68,8 +56,9 @@ class Core {
   void set_time(double time) { balls_.set_time(time); }
   /// Returns the balls by number, and their bounds.
   const Balls& balls() const { return balls_; }
-  const CoreCounters& counters() const { return counters_; }
-  std::size_t bytes() const;
+  /// Returns the memory in use (bytes): of balls and their safe regions, and of who is due and why.
+  std::size_t region_bytes() const { return balls_.bytes() + cells_.bytes(); }
+  std::size_t due_bytes() const { return lists_.bytes() + queue_.bytes(); }
 
   bool contains(std::uint32_t number) const { return number < balls_.size() && balls_[number].is_present(); }
   /// Enters a ball with this bound, the radius of which includes the distance at which it senses others. A
@@ -96,13 +85,13 @@ class Core {
   static void serialize(auto& self, auto& archive) {
     archive(self.balls_, self.first_radius_, self.measured_);
     if constexpr (std::is_const_v<std::remove_reference_t<decltype(self)>>) {
-      archive(self.reaches());
+      archive(self.saved());
     } else {
-      archive(self.reaches_read_);
+      archive(self.saved_);
     }
   }
   /// Makes the rest anew after reading, at this time. Returns false if no core could have been so.
-  bool rebuild(double time, Host& host);
+  bool rebuild(double time);
 
   // Queries.
   /// What a ball is due about, and when.
@@ -120,8 +109,14 @@ class Core {
   double region_reach(std::uint32_t number) const {
     return double{cells_.reach_of(balls_[number].slot)} * unit_;
   }
+  /// Returns the cells of safe regions that are not empty, each with the number of regions whose centres are in
+  /// it. Cost: O(n log n).
+  std::vector<std::pair<Box, std::size_t>> cells() const;
   /// Returns the median reach of safe regions (length), as it was when cells were last chosen.
   double median_reach() const { return cells_.median_reach() * unit_; }
+  /// Returns the median time for which balls that move stay in their safe regions from now on; infinity if
+  /// none moves. Cost: O(n).
+  double median_stay() const;
 
   /// What a check may expect of two balls. Of a ball with itself: `nothing` while it waits for settle(), and
   /// that it is in its safe region if it meets others as a ball.
@@ -132,7 +127,6 @@ class Core {
 
  private:
   // core.cpp: the loop.
-  std::vector<float> reaches() const;
   Result<void> handle(std::uint32_t number, Host& host);
   Result<void> handle_own(std::uint32_t number, Host& host);
   void postpone(std::uint32_t number, double time);
@@ -145,21 +139,36 @@ class Core {
 
   // safe_regions.cpp
   Result<void> leave_region(std::uint32_t number, Host& host);
+  void move_region(std::uint32_t number, Host& host);
   void place_region(std::uint32_t number, double radius);
   void enter_region(std::uint32_t number, double radius, Host& host);
   void find_neighbours(std::uint32_t number, Host& host);
+  void note_search(Host& host) const;
   void forget(std::uint32_t number, std::uint32_t neighbour);
   void forget_neighbours(std::uint32_t number);
-  void place_arrivals(std::span<const std::uint32_t> changed, Host& host);
-  void choose_first_radius();
   double next_radius(std::uint32_t number);
   double near_now(std::uint32_t number) const;
   double widest_region(const Ball& ball) const;
   float reach(const Ball& ball) const;
   Vec3 region_centre(const Ball& ball) const;
 
+  // rebuild.cpp
+  struct Saved;
+  Saved saved() const;
+  bool is_valid(std::uint32_t number) const;
+
+  // arrivals.cpp
+  void place_arrivals(std::span<const std::uint32_t> changed, Host& host);
+  void place_together(std::span<std::uint32_t> arrivals, Host& host);
+  double radius_among_others(std::uint32_t number);
+  void join_crowd(std::uint32_t number, Host& host);
+  void choose_first_radius();
+  double first_radius_of(std::span<const std::uint32_t> numbers) const;
+  Box extent_of(std::span<const std::uint32_t> numbers) const;
+
   // own_time.cpp
   void compute_own(std::uint32_t number, Host& host);
+  void compute_own_later(std::uint32_t number, Host& host);
   void compute_stay(std::uint32_t number);
   void limit_own(std::uint32_t number, double walls_until);
   double stays(std::uint32_t number) const;
@@ -177,12 +186,17 @@ class Core {
   NeighbourLists lists_;
   RegionCells cells_;
   DueQueue queue_;
-  double first_radius_ = 0.0;        ///< of the first safe region of a ball (length)
-  std::vector<float> reaches_read_;  ///< from a snapshot: with which safe regions were entered
+  double first_radius_ = 0.0;        ///< of the first safe region of a ball that arrives alone (length)
+  /// From a snapshot, by number.
+  struct Saved {
+    std::vector<float> reaches;  ///< with which safe regions were entered
+    std::vector<std::vector<std::uint32_t>> lists;
+    static void serialize(auto& self, auto& archive) { archive(self.reaches, self.lists); }
+  };
+  Saved saved_;
   std::size_t present_ = 0;          ///< how many balls there are
   std::size_t measured_ = 0;         ///< how many there were when first_radius_ was chosen
   std::size_t queued_for_ = 0;       ///< how many numbers there were when the queue was filled
-  CoreCounters counters_;
   // Members only to reuse their memory.
   RegionSearch search_;
   std::vector<std::uint32_t> gone_, new_, settling_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "kinesphere/counters.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/vec3.hpp"
 
@@ -34,6 +35,8 @@ class Host {
   /// The safe region of a ball in periodic space is now around `centre`. Two balls meet in the images in
   /// which the centres of their safe regions are nearest.
   virtual void note_image(std::uint32_t ball, const Vec3& centre) = 0;
+  /// Returns where the core counts its searches, and the times that it computes.
+  virtual Counters& work_counters() = 0;
 
  protected:
   ~Host() = default;

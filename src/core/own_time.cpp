@@ -4,6 +4,7 @@
 
 #include "bound/rounding.hpp"
 #include "contact/contact_event.hpp"
+#include "contact/contact_predictor.hpp"
 #include "core/core.hpp"
 #include "number/infinity.hpp"
 
@@ -13,6 +14,14 @@ namespace kinesphere::core {
 void Core::compute_own(std::uint32_t number, Host& host) {
   compute_stay(number);
   limit_own(number, clear_of_walls(number, host));
+}
+
+/// Computes Ball::own, later than now. Where there is too little room for the least step of time, nothing
+/// better can be said.
+void Core::compute_own_later(std::uint32_t number, Host& host) {
+  compute_own(number, host);
+  Ball& ball = balls_[number];
+  if (!ball.is(Ball::at_wall)) ball.own = std::max(ball.own, just_after(balls_.time()));
 }
 
 /// Computes Ball::own as if there were no walls.
@@ -29,6 +38,16 @@ void Core::limit_own(std::uint32_t number, double walls_until) {
   if (!(walls_until < ball.own)) return;
   ball.own = walls_until;
   ball.set(Ball::at_wall, true);
+}
+
+double Core::median_stay() const {
+  std::vector<double> stays;
+  for (const Ball& ball : balls_.all())
+    if (ball.is_present() && ball.own < infinity) stays.push_back(ball.own - balls_.time());
+  if (stays.empty()) return infinity;
+  const auto middle = stays.begin() + static_cast<std::ptrdiff_t>(stays.size() / 2);
+  std::nth_element(stays.begin(), middle, stays.end());
+  return *middle;
 }
 
 /// Returns a time before which nothing happens between the ball and the walls; now if reports have to decide.
@@ -65,6 +84,8 @@ double Core::stays(std::uint32_t number) const {
   double guess;
   if (grows) {
     guess = 2.0 * room / (rate + std::sqrt(rate * rate + 2.0 * limit * room));
+    // Its motion alone takes it out by then; what grows may be so little that squares of `guess` overflow.
+    if (moves) guess = std::min(guess, (room + std::sqrt(qq)) / std::sqrt(vv));
     for (int step = 0; step < 3; ++step) {
       const double distance = std::sqrt(std::max(qq + (2.0 * qv + vv * guess) * guess, 0x1p-900));
       const double left = room - (rate + 0.5 * limit * guess) * guess - distance;

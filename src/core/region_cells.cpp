@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "number/roots.hpp"
 
@@ -124,6 +126,38 @@ void RegionCells::leave(Balls& balls, std::uint32_t ball) {
   balls[block.balls[lane]].slot = slot;
   balls[ball].slot = none;
   block.reach[last] = std::numeric_limits<float>::quiet_NaN();
+}
+
+bool RegionCells::are_near(const Ball& a, float reach_of_a, const Ball& b, float reach_of_b) const {
+  float square = 0.0F;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    constexpr float rounder = 0x1.8p23F;
+    float way = b.centre[axis] - a.centre[axis];
+    if (float_periods_.any)
+      way -= float_periods_.length[axis] * ((way * float_periods_.inverse[axis] + rounder) - rounder);
+    square += way * way;
+  }
+  return square <= (reach_of_a + reach_of_b) * (reach_of_a + reach_of_b);
+}
+
+std::vector<std::pair<Box, std::size_t>> RegionCells::filled() const {
+  std::map<std::tuple<std::size_t, std::int64_t, std::int64_t, std::int64_t>, std::size_t> counts;
+  for (const RegionBlock& block : blocks_)
+    for (std::uint32_t lane = 0; lane < block.count; ++lane) {
+      const std::size_t number = level_of(block.reach[lane]);
+      const Level& level = levels_[number];
+      ++counts[{number, cell_on(level, 0, block.x[lane]), cell_on(level, 1, block.y[lane]),
+                cell_on(level, 2, block.z[lane])}];
+    }
+  std::vector<std::pair<Box, std::size_t>> all;
+  for (const auto& [cell, count] : counts) {
+    const auto& [number, x, y, z] = cell;
+    const std::array<double, 3>& by_width = levels_[number].by_width;
+    const Vec3 lower{static_cast<double>(x) / by_width[0], static_cast<double>(y) / by_width[1],
+                     static_cast<double>(z) / by_width[2]};
+    all.push_back({{lower, lower + Vec3{1.0 / by_width[0], 1.0 / by_width[1], 1.0 / by_width[2]}}, count});
+  }
+  return all;
 }
 
 std::vector<RegionCells::Entry> RegionCells::entries() const {

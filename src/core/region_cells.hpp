@@ -14,10 +14,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/balls.hpp"
 #include "core/near_lanes.hpp"
+#include "kinesphere/vec3.hpp"
 
 namespace kinesphere::core {
 
@@ -52,11 +54,15 @@ class RegionCells {
   float reach_of(std::uint32_t slot) const { return blocks_[slot / lanes].reach[slot % lanes]; }
   /// Finds all balls whose regions come within reach of that of `ball`.
   void search(const Ball& ball, float reach, RegionSearch& search) const;
+  /// Returns true if a search finds the one by the other. The reaches are those of the two.
+  bool are_near(const Ball& a, float reach_of_a, const Ball& b, float reach_of_b) const;
   /// Chooses levels and the widths of cells anew, for the regions that there are. All slots change. Cost:
   /// O(n). Regions that enter do so by themselves, every now and then.
   void rebuild(Balls& balls);
   /// Returns the median reach of the regions when levels were chosen (region units).
   double median_reach() const { return double{median_}; }
+  /// Returns the cells that are not empty (region units), each with the number of regions in it.
+  std::vector<std::pair<Box, std::size_t>> filled() const;
   std::size_t bytes() const { return blocks_.capacity() * sizeof(RegionBlock); }
 
  private:

@@ -5,10 +5,8 @@
 #include <utility>
 
 #include "contact/contact_event.hpp"
-#include "contact/contact_predictor.hpp"
 #include "core/core.hpp"
 #include "number/infinity.hpp"
-#include "number/roots.hpp"
 
 namespace kinesphere::core {
 namespace {
@@ -18,6 +16,8 @@ namespace {
 constexpr double ahead = 0.6;
 /// A ball that may leave its safe region reports first if its bound has grown by this part of the region.
 constexpr double growth_worth_a_report = 0.25;
+/// The largest radius of a safe region (region units), whose square is an ordinary number in single precision.
+constexpr double largest_region = 0x1p60;
 /// It keeps its safe region if it stays in it for this part of the time since its last report.
 constexpr double stay_worth_keeping = 0.0625;
 /// A ball in exact flight reports after this many radii of a safe region: the way from an old report loses
@@ -63,14 +63,19 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
     const bool is_far = norm_one(ball.velocity) * (balls_.time() - ball.time) > longest_flight * radius;
     if (is_wide || is_far)
       if (auto refreshed = host.refresh(number); !refreshed) return refreshed;
-    enter_region(number, next_radius(number), host);
-    find_neighbours(number, host);
+    move_region(number, host);
   }
-  compute_own(number, host);
-  // Where images leave too little room for the least step of time, nothing better can be said.
-  if (!ball.is(Ball::at_wall)) ball.own = std::max(ball.own, just_after(balls_.time()));
+  compute_own_later(number, host);
   schedule(number, host);
   return {};
+}
+
+/// Gives the ball another safe region, and neighbours.
+void Core::move_region(std::uint32_t number, Host& host) {
+  ++host.work_counters().starts;
+  enter_region(number, next_radius(number), host);
+  find_neighbours(number, host);
+  note_search(host);
 }
 
 /// Returns the radius of the next safe region (length). A wider one lasts longer, but has more neighbours,
@@ -87,7 +92,7 @@ double Core::next_radius(std::uint32_t number) {
   const double scans = 0.125 * ball.scans_by_region;
   const double wanted = 2.0 * (radius + ball.radius) * (cost_of_region + cost_of_neighbour * neighbours) /
                         (dimensions_ * others * (cost_of_neighbour + cost_of_scan * scans));
-  const double ratio = std::clamp(wanted / radius, 0.25, 4.0);
+  const double ratio = std::clamp(wanted / radius, 0.25, 16.0);
   return radius * std::sqrt(std::sqrt(ratio));
 }
 
@@ -104,7 +109,6 @@ double Core::near_now(std::uint32_t number) const {
 /// Gives the ball a safe region of about this radius (length), around and ahead of where its bound is now.
 void Core::place_region(std::uint32_t number, double radius) {
   Ball& ball = balls_[number];
-  ++counters_.regions;
   const Vec3 motion = balls_.velocity(number);
   const double speed = norm(motion), growth = balls_.growth(number);
   Vec3 centre = balls_.position(number);
@@ -114,10 +118,11 @@ void Core::place_region(std::uint32_t number, double radius) {
   // Times may be so coarse that it goes farther in the least step.
   const double step = 0x1p-49 * std::abs(balls_.time());
   radius = std::max(radius, (speed + balls_.growth_speed(number) + ball.acceleration_limit * step) * step);
-  radius = stands ? 0.0 : std::min(radius, widest_region(ball) - growth - resolved);
+  const double widest = std::min(widest_region(ball), largest_region * unit_);
+  radius = stands ? 0.0 : std::min(radius, widest - growth - resolved);
   if (speed > 0.0) centre += motion * (ahead * radius / speed);
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(balls_.periods().length[axis] > 0.0)) continue;
+    if (!(balls_.periods().length[axis] > 0.0) || ball.is(Ball::passive)) continue;
     const double images = std::floor((centre[axis] - origin_[axis]) * balls_.periods().inverse[axis]);
     centre[axis] -= images * balls_.periods().length[axis];
     ball.position[axis] -= images * balls_.periods().length[axis];
@@ -180,6 +185,11 @@ void Core::find_neighbours(std::uint32_t number, Host& host) {
   lists_.assign(balls_[number].list, found);
 }
 
+void Core::note_search(Host& host) const {
+  ++host.work_counters().searches;
+  host.work_counters().candidates += search_.found.size();
+}
+
 /// The ball no longer has this neighbour. If it is due about it, it looks for others then.
 void Core::forget(std::uint32_t number, std::uint32_t neighbour) {
   lists_.erase(balls_[number].list, neighbour);
@@ -203,51 +213,6 @@ void Core::forget_neighbours(std::uint32_t number) {
   lists_.assign(balls_[number].list, {});
 }
 
-/// Gives those of the changed balls that have arrived their first safe regions and their neighbours.
-void Core::place_arrivals(std::span<const std::uint32_t> changed, Host& host) {
-  std::vector<std::uint32_t> arrivals;
-  for (const std::uint32_t number : changed)
-    if (balls_[number].is(Ball::arriving)) arrivals.push_back(number);
-  if (arrivals.empty()) return;
-  choose_first_radius();
-  for (const std::uint32_t number : arrivals) {
-    enter_region(number, first_radius_, host);
-  }
-  if (2 * arrivals.size() > present_) cells_.rebuild(balls_);
-  for (const std::uint32_t number : arrivals) {
-    balls_[number].set(Ball::arriving, false);
-    find_neighbours(number, host);
-  }
-  std::sort(settling_.begin(), settling_.end());
-  settling_.erase(std::unique(settling_.begin(), settling_.end()), settling_.end());
-}
-
-/// Chooses the radius of the first safe region of a ball (length): about a third of the mean distance of all
-/// balls that may move, in as many dimensions as they fill. It is chosen anew when there are twice as many.
-void Core::choose_first_radius() {
-  if (measured_ <= present_ && present_ < 2 * measured_) return;
-  measured_ = present_;
-  Vec3 lower{infinity, infinity, infinity}, upper = lower * -1.0;
-  double count = 0.0;
-  for (const Ball& ball : balls_.all()) {
-    if (ball.list == none) continue;
-    ++count;
-    for (int axis = 0; axis < 3; ++axis) {
-      lower[axis] = std::min(lower[axis], ball.position[axis]);
-      upper[axis] = std::max(upper[axis], ball.position[axis]);
-    }
-  }
-  first_radius_ = tolerance_;
-  if (count == 0.0) return;
-  double edges[3] = {upper.x - lower.x, upper.y - lower.y, upper.z - lower.z};
-  std::sort(std::begin(edges), std::end(edges));
-  const double volume = edges[0] * edges[1] * edges[2];
-  double distance = volume > 0.0 ? cube_root(volume / count) : 0.0;
-  if (!(edges[0] > distance)) distance = std::sqrt(edges[1] * edges[2] / count);
-  if (!(edges[1] > distance)) distance = edges[2] / count;
-  first_radius_ += 0.35 * distance;
-}
-
 /// Finds balls by their safe regions.
 std::vector<std::uint32_t> Core::find(const Vec3& centre, double radius) const {
   Vec3 place = centre - origin_;
@@ -261,6 +226,12 @@ std::vector<std::uint32_t> Core::find(const Vec3& centre, double radius) const {
   RegionSearch search;
   cells_.search(at, reach(at), search);
   return std::move(search.found);
+}
+
+std::vector<std::pair<Box, std::size_t>> Core::cells() const {
+  auto all = cells_.filled();
+  for (auto& [box, count] : all) box = {origin_ + box.lower * unit_, origin_ + box.upper * unit_};
+  return all;
 }
 
 }  // namespace kinesphere::core

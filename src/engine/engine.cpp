@@ -3,8 +3,10 @@
 
 namespace kinesphere {
 
-World::Engine::Engine(const WorldDefinition& definition)
-    : state_(definition), main_(state_, definition.start_time) {}
+World::Engine::Engine(const WorldDefinition& definition, bool uses_core)
+    : state_(definition), main_(state_, definition.start_time) {
+  if (uses_core) state_.core.emplace(definition);
+}
 
 World::Engine::Engine(const Engine& other)
     : state_(other.state_), main_(other.main_, state_), prepared_(other.prepared_) {}
@@ -34,7 +36,6 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
 Result<bool> World::Engine::prepare_batch(const Probe& probe, PoolLease& lease) {
   main_.reports().ask(probe, "advance");
   main_.note_response();
-  if (state_.core) return false;
   if (main_.is_gathering() || !main_.events().is_quiet()) return false;
   if (main_.pause() <= time()) {
     if (auto noted = main_.note_instant(); !noted) return noted.error();

@@ -25,7 +25,8 @@ namespace kinesphere {
 
 class World::Engine {
  public:
-  explicit Engine(const WorldDefinition& definition);
+  /// `uses_core`: the core finds what is due; otherwise windows do.
+  explicit Engine(const WorldDefinition& definition, bool uses_core = true);
   Engine(const Engine& other);
 
   // Time.

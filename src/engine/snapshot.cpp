@@ -22,7 +22,7 @@ namespace {
 
 /// Raise the version if the fields change, or if the engine would continue differently from the same fields.
 constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                                  28,
+                                  29,
                                   "world",
                                   "World::restore",
                                   "snapshot",
@@ -61,7 +61,7 @@ void World::Engine::serialize(Self& self, Archive& archive) {
 
 std::vector<std::byte> World::Engine::save() const {
   ByteWriter content;
-  content(definition(), bodies().filters.has_pair_filter());
+  content(definition(), bodies().filters.has_pair_filter(), state_.core.has_value());
   serialize(*this, content);
   return world_envelope.seal(content.bytes());
 }
@@ -72,15 +72,15 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
   if (!content) return content.error();
   ByteReader reader(*content);
   WorldDefinition definition;
-  bool needs_filter = false;
-  reader(definition, needs_filter);
+  bool needs_filter = false, uses_core = false;
+  reader(definition, needs_filter, uses_core);
   if (reader.failed() || !check_world(definition))
     return refusal("must hold a world that can be, but its definition is impossible");
   if (needs_filter && !pair_filter) {
     return Error{ErrorCode::bad_snapshot, "pair_filter", no_body,
                  "World::restore: pair_filter must be given, as the saved world had one, but is empty"};
   }
-  auto engine = std::make_unique<Engine>(definition);
+  auto engine = std::make_unique<Engine>(definition, uses_core);
   serialize(*engine, reader);
   if (reader.failed() || reader.remaining() != 0)
     return refusal("must hold a world, but its content does not have the form of one");

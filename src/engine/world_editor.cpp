@@ -63,12 +63,18 @@ void World::WorldEditor::set_rotation(BodyId id, const Rotation& rotation) {
   insert_at(number, body.bound);
 }
 
-/// Sets the bound of the body and marks it as relocated. The next advance searches for its neighbours.
+/// Sets the bound of the body and marks it as relocated.
 void World::WorldEditor::insert_at(std::uint32_t number, const Bound& bound) {
   Body& body = state_.bodies[number];
   body.bound = bound;
   body.relocated = true;
   if (bound.is_exact() && !body.is_static()) state_.spot_checks.note_arrival(time());
+  register_anew(number);
+}
+
+/// Others find the body where it is now. The next advance searches for its neighbours.
+void World::WorldEditor::register_anew(std::uint32_t number) {
+  const Body& body = bodies()[number];
   if (state_.core) return insert_in_core(number);
   BroadPhase& windows = state_.broad_phase;
   if (windows.contains(number)) windows.leave(number);
@@ -86,6 +92,16 @@ void World::WorldEditor::insert_in_core(std::uint32_t number) {
   if (state_.core->contains(number)) state_.core->leave(number);
   main_.invalidate(number);
   if (!bodies().definition().allow_overlap) main_.enter_core(number);
+}
+
+void World::WorldEditor::use_windows() {
+  if (!state_.core) return;
+  main_.leave_core();
+  for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
+    if (!bodies()[number].present()) continue;
+    state_.bodies[number].relocated = true;
+    register_anew(number);
+  }
 }
 
 void World::WorldEditor::end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends) {

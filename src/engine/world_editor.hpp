@@ -50,6 +50,8 @@ class World::WorldEditor {
   void set_shape(BodyId id, const Shape& shape);
   void set_mass(BodyId id, double mass) { state_.bodies.masses.keep(id.index, mass); }
   void set_user_data(BodyId id, std::uint64_t data) { state_.bodies[id.index].user_data = data; }
+  /// From now on, windows and certificates find what is due, in place of the core.
+  void use_windows();
 
  private:
   const Bodies& bodies() const { return state_.bodies; }
@@ -57,6 +59,7 @@ class World::WorldEditor {
   Sleeping sleeping() { return {state_, main_}; }
   BodyId insert(const BodyDefinition& definition, auto give_form);
   void insert_at(std::uint32_t number, const Bound& bound);
+  void register_anew(std::uint32_t number);
   void insert_in_core(std::uint32_t number);
   void replace(std::uint32_t number, const Bound& bound);
   void end_contacts_outside(std::uint32_t number, const CollisionShape& replacement);

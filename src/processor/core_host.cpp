@@ -21,6 +21,25 @@ void EventProcessor::enter_core(std::uint32_t number) {
   core().enter(number, extent_of(number), bodies()[number].is_static(), bodies().meets_walls(number));
 }
 
+bool EventProcessor::rebuild_core() {
+  for (std::uint32_t number = 0; number < core().balls().size(); ++number) {
+    if (!core().contains(number)) continue;
+    const core::Ball& ball = core().balls()[number];
+    if (number >= bodies().numbers() || ball.is(core::Ball::passive) != bodies()[number].is_static())
+      return false;
+    // A changed filter is told to the core as the body is settled.
+    if (ball.is(core::Ball::meets_walls) != bodies().meets_walls(number) && !bodies()[number].dirty)
+      return false;
+  }
+  return core().rebuild(time_);
+}
+
+void EventProcessor::leave_core() {
+  state_->core.reset();
+  known_ = PairTimes();
+  linked_.clear();
+}
+
 /// Tells the core whether the body touches or senses anything.
 void EventProcessor::link_in_core(std::uint32_t number) {
   core().set_linked(number, contacts().walls_of(number) != 0 || !contacts().partners_of(number).empty() ||
@@ -129,6 +148,10 @@ Result<void> EventProcessor::refresh(std::uint32_t ball) {
 
 void EventProcessor::note_image(std::uint32_t ball, const Vec3& centre) {
   Body& body = bodies()[ball];
+  if (body.is_static()) {
+    bodies().images[ball].middle = body.bound.position;
+    return;
+  }
   body.bound.position += bodies().images[ball].follow(bodies().space(), body.bound.centre_at(time_), centre);
 }
 

@@ -239,7 +239,7 @@ void EventProcessor::recertify_changed(std::uint32_t a, std::uint32_t b) {
 }
 
 std::size_t EventProcessor::bytes() const {
-  return queue_.bytes() + reports_.bytes() +
+  return queue_.bytes() + reports_.bytes() + known_.bytes() +
          heap_bytes(events_, dirty_, round_, entered_, found_.certificates);
 }
 

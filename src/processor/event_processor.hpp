@@ -191,8 +191,10 @@ class alignas(128) EventProcessor final : public core::Host {
   /// Enters a body that is known by the core from now on, but has no neighbours before it is recertified.
   void enter_core(std::uint32_t number);
   /// Makes anew what a snapshot does not contain of a core. Returns false if no core could have been so.
-  bool rebuild_core() { return core().rebuild(time_, *this); }
+  bool rebuild_core();
   bool uses_core() const { return state_->core.has_value(); }
+  /// Goes on without the core. All bodies have to be made dirty.
+  void leave_core();
 
  private:
   // core_host.cpp
@@ -211,6 +213,7 @@ class alignas(128) EventProcessor final : public core::Host {
   Result<double> recheck_walls(std::uint32_t ball) override;
   Result<void> refresh(std::uint32_t ball) override;
   void note_image(std::uint32_t ball, const Vec3& centre) override;
+  Counters& work_counters() override { return work_.counters; }
 
   void open_queue();
   Result<void> recertify_all();

@@ -39,7 +39,7 @@ class PairTimes {
   /// Validates what was read from bytes.
   bool is_valid(std::size_t bodies) const {
     const auto is_entry = [=](const Entry& entry) {
-      return entry.pair == nothing ||
+      return (entry.pair == nothing && entry.until == -infinity) ||
              (entry.first() < bodies && entry.second() < bodies && !std::isnan(entry.until));
     };
     const auto taken = static_cast<std::size_t>(std::count_if(

@@ -65,9 +65,10 @@ class SpotChecks {
     // Division only for those that are quicker than the others.
     if (speed * census.least_time > 0.5 * body.radius) census.least_time = 0.5 * body.radius / speed;
   }
-  /// Notes that they were checked at `time`, until which the world has made so many probes.
-  void note_check(const WindowPolicy& policy, double time, const Census& census, std::uint64_t probes) {
-    const int rung = std::min(policy.is_chosen() ? policy.main_rung() : 0, 0) - 6;
+  /// Notes that they were checked at `time`, until which the world has made so many probes. `pace`: a time in
+  /// which bodies move noticeably among each other.
+  void note_check(double pace, double time, const Census& census, std::uint64_t probes) {
+    const int rung = std::clamp(exponent_of(pace), -1000, 0) - 6;
     first_ = std::max(power_of_two(rung), 0x1p-40 * std::abs(time));
     std::erase_if(arrivals_, [&](double arrival) { return is_old(arrival, time); });
     if (time >= rarer_) {

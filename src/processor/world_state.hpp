@@ -17,16 +17,14 @@ struct WorldState {
       : bodies(definition),
         contacts(definition),
         broad_phase(bodies.space()),
-        window_policy(longest_way(bodies.definition()), definition.dimensions) {
-    if (core::worlds_have_cores()) core.emplace(definition);
-  }
+        window_policy(longest_way(bodies.definition()), definition.dimensions) {}
 
   Bodies bodies;
   ContactGraph contacts;
   BroadPhase broad_phase;
   WindowPolicy window_policy;
   SpotChecks spot_checks;
-  /// Finds what is due in place of windows and certificates, which then are not used.
+  /// Finds what is due, in place of windows and certificates, which are not used as long as there is one.
   std::optional<core::Core> core;
 };
 

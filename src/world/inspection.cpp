@@ -31,11 +31,15 @@ class Stopwatch {
 Memory World::Engine::memory() const {
   Memory memory;
   memory.pairs = main_.queue().bytes();
+  memory.other = sizeof *this + main_.bytes() - memory.pairs;
   memory.bodies = heap_bytes(bodies());
   memory.contacts = heap_bytes(contacts());
   memory.windows = heap_bytes(broad_phase());
   if (prepared_) memory.windows += heap_bytes(*prepared_);
-  memory.other = sizeof *this + main_.bytes() - memory.pairs;
+  if (state_.core) {
+    memory.pairs += state_.core->due_bytes();
+    memory.windows += state_.core->region_bytes();
+  }
   if (profile_) memory.other += profile_->bytes();
   for (const SearchResults& found : found_) memory.other += heap_bytes(found.certificates);
   return memory;
@@ -49,7 +53,10 @@ Memory World::Inspection::memory() const {
 
 std::vector<CellView> World::Inspection::cells() const {
   std::vector<CellView> all;
-  for (const GridLevel& level : world_->engine("cells").broad_phase().levels())
+  const Engine& engine = world_->engine("cells");
+  if (engine.state().core)
+    for (const auto& [box, bodies] : engine.state().core->cells()) all.push_back({box, bodies});
+  for (const GridLevel& level : engine.broad_phase().levels())
     level.for_each_cell([&](const Box& box, std::size_t bodies) { all.push_back({box, bodies}); });
   return all;
 }
@@ -60,6 +67,9 @@ std::vector<Certificate> World::Inspection::certificates() const {
   if (const auto& core = engine.state().core) {
     for (std::uint32_t number = 0; number < engine.bodies().numbers(); ++number)
       if (const auto found = core->certificate_of(number)) {
+        const bool waits = engine.bodies()[number].dirty ||
+                           (found->other != core::none && engine.bodies()[found->other].dirty);
+        if (waits) continue;
         const BodyId other = found->other == core::none ? no_body : engine.bodies().id_of(found->other);
         const auto [first, second] = std::minmax({engine.bodies().id_of(number), other});
         all.push_back({first, second, found->until});

@@ -66,6 +66,8 @@ class World::Run final : private ResponseHandler {
     world_.running_ = true;
     const ScopeGuard stop([&] { world_.running_ = false; });
     if (!deliver()) return {};
+    // Clusters of several threads are those of windows.
+    if (may_share_work()) world_.changeable().changes().use_windows();
     world_.changeable().begin_call(until_);
     gain_ = lease_.gain();
     for (;;) {
@@ -105,14 +107,16 @@ class World::Run final : private ResponseHandler {
     return step_batch();
   }
 
-  /// Returns false if one thread does all, however many there are. What few bodies need is done before other
-  /// threads have begun. Recording and profiling require events to be processed one at a time, and a rotation
-  /// probe has to be called in the order of time.
+  /// Returns false if one thread does all, however many there are. Recording and profiling require events to
+  /// be processed one at a time, and a rotation probe has to be called in the order of time.
+  bool may_share_work() const {
+    return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ && !world_.engine_->bodies().rigid.probe;
+  }
+  /// Returns true if several threads work. What few bodies need is done before other threads have begun.
   bool shares_work() const {
     constexpr std::size_t fewest_bodies = 1024;
     if (gain_ != nullptr && world_.engine_->bodies().table().live_count() < fewest_bodies) return false;
-    return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ &&
-           !world_.engine_->bodies().rigid.probe && world_.undelivered_->empty();
+    return may_share_work() && world_.undelivered_->empty();
   }
 
   /// Returns true if one thread does all for some time, because the processors are busy.

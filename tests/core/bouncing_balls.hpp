@@ -103,6 +103,7 @@ class BouncingBalls final : core::Host {
   TrueMotion truth;
   std::vector<Bounce> bounces;
   std::uint64_t probes = 0;
+  Counters work;
 
   /// Plays until then. Every approach within the tolerance is a bounce.
   void play(double until) {
@@ -238,6 +239,7 @@ class BouncingBalls final : core::Host {
     return {};
   }
   void note_image(std::uint32_t, const Vec3&) override {}
+  Counters& work_counters() override { return work; }
 
   double put_off(std::uint32_t a, std::uint32_t b, double until) {
     if (until < std::numeric_limits<double>::infinity()) put_off_[std::minmax(a, b)] = until;

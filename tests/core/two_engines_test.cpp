@@ -9,8 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/core.hpp"
-#include "number/scope_guard.hpp"
+#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::two_engines_test {
@@ -45,8 +44,9 @@ std::vector<Scene> scenes() {
 /// A world with this scene, and the same random draws for both engines.
 class Play {
  public:
-  Play(const Scene& scene, std::uint64_t seed)
+  Play(const Scene& scene, std::uint64_t seed, bool on_core)
       : scene_(scene), random_(seed), ground_(scene.definition), flat_(scene.definition.dimensions == 2) {
+    if (!on_core) use_windows(ground_.world);
     if (scene.has_sensors) {
       ground_.world.set_sensor(1, {.distances = {0.0, 0.3}}).value();
       ground_.world.set_sensor(2, {.distances = {0.5}, .mask = 2}).value();
@@ -161,9 +161,7 @@ void expect_same(std::vector<Event> windows, std::vector<Event> core) {
 }
 
 std::vector<Event> played(const Scene& scene, std::uint64_t seed, bool on_core, std::uint64_t& probes) {
-  const bool before = core::worlds_have_cores().exchange(on_core);
-  const ScopeGuard restored([before] { core::worlds_have_cores() = before; });
-  Play play(scene, seed);
+  Play play(scene, seed, on_core);
   std::vector<Event> told = play.run();
   probes += play.counters().probes;
   return told;

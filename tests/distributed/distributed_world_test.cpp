@@ -203,6 +203,7 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
   RunOutcome one;
   EventHash hash;
   World world = World::create(setting.scene.world).value();
+  use_windows(world);
   BodyMap map;
   const auto sink = [&](const Event& event) { hash.add(event); };
   std::vector<std::uint32_t> order;

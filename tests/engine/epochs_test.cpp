@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::epochs_test {
@@ -24,6 +25,7 @@ void add_some(Playground& world, int count, std::uint64_t stream, double radius 
 
 TEST(Epochs, EndAndStartForAllBodies) {
   Playground world;
+  use_windows(world.world);
   add_some(world, 40, 0);
   (void)world.run(0.01);
   EXPECT_EQ(world.world.counters().window_ends, 1u) << "all of them are new";
@@ -37,6 +39,7 @@ TEST(Epochs, EndAndStartForAllBodies) {
 
 TEST(Epochs, StartWithMostOfThoseThatArrive) {
   Playground world;
+  use_windows(world.world);
   add_some(world, 40, 0);
   (void)world.run(0.01);
   const std::uint64_t before = world.world.counters().window_ends;

@@ -1,4 +1,5 @@
-// A world of bouncing bodies, advanced by a loop over advance() or by World::run, with equal results.
+// A world of bouncing bodies in windows, advanced by a loop over advance() or by World::run, with equal
+// results.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/workers.hpp"
+#include "support/in_windows.hpp"
 
 namespace kinesphere {
 
@@ -29,7 +31,9 @@ struct BouncingWorld {
   double last = -std::numeric_limits<double>::infinity();  ///< the time of the last event
 
   BouncingWorld(OfMotion moved_by, World empty, double bounciness)
-      : motion(std::move(moved_by)), world(std::move(empty)), restitution(bounciness) {}
+      : motion(std::move(moved_by)), world(std::move(empty)), restitution(bounciness) {
+    use_windows(world);
+  }
   /// Adds the next body of the motion.
   void add(const BodyDefinition& body, double mass) {
     world.add(body).value();

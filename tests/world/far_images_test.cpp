@@ -11,6 +11,7 @@
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/placement.hpp"
 #include "support/eager_workers.hpp"
+#include "support/in_windows.hpp"
 
 namespace kinesphere::far_images_test {
 namespace {
@@ -87,6 +88,7 @@ class FarSource : public MotionSource {
 // Coordinates reach to 6.6, a little farther than the box, and those of reports to 422.
 TEST(FarImages, ARunGoesOnHoweverFarItsBodiesTravel) {
   Gas gas(3e-12, {4.0, 0.0, 0.0});
+  use_windows(gas.world);
   const double energy = gas.energy();
   for (double time = 10.0; time <= 200.0; time += 10.0) {
     const auto result = gas.run(time);

@@ -1,4 +1,4 @@
-// Periodic space far from its origin, with half a period below the resolution of single precision: bodies
+// Windows in periodic space far from its origin, with half a period below the resolution of single precision: bodies
 // with swept spheres nearly as wide as allowed, which overlap by a sliver.
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <optional>
 #include <ostream>
 
+#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::far_period_test {
@@ -58,6 +59,7 @@ class Meeting : public Playground {
         speed(0.99995 * longest_way(place) / window_length(place)),
         goer(add({.radius = half_width, .position = {place.lower + start, 0, 0}, .velocity = {speed, 0, 0}})),
         waiter(add({.radius = half_width, .position = {place.lower + 7, 900, 0}, .velocity = {-1, 0, 0}})) {
+    use_windows(world);
     distort = [this](BodyId, double, State& reported) {
       reported.position.x = place.wrapped(reported.position.x);
     };

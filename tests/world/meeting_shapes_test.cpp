@@ -541,6 +541,7 @@ struct Heap : MappedWorld<Ballistic> {
 TEST(MeetingShapes, RunTheSameWithThreadsAndFromSnapshots) {
   expect_the_same_with_threads_and_from_snapshots<Heap>(4, 2.0, 100);
   Heap alone, threaded;
+  use_windows(alone.world);
   Workers workers = eager_workers(4).value();
   alone.run(2.0);
   threaded.run(2.0, &workers);

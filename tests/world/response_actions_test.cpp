@@ -17,6 +17,7 @@
 #include "kinesphere/workers.hpp"
 #include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
+#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::response_actions_test {
@@ -33,7 +34,9 @@ struct Game {
   std::size_t told = 0;
   std::size_t stops = 0;
 
-  Game(World empty, std::unique_ptr<Motion> moved_by) : world(std::move(empty)), crowd(std::move(moved_by)) {}
+  Game(World empty, std::unique_ptr<Motion> moved_by) : world(std::move(empty)), crowd(std::move(moved_by)) {
+    use_windows(world);
+  }
   virtual ~Game() = default;
 
   virtual Response respond(const Event& event) const = 0;

@@ -19,6 +19,7 @@
 #include "number/infinity.hpp"
 #include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
+#include "support/in_windows.hpp"
 #include "support/placed_parts.hpp"
 #include "support/scenes_of_each.hpp"
 #include "support/spin.hpp"
@@ -564,6 +565,7 @@ TEST_F(FreeFlight, RunGivesWhatALoopGives) {
   for (EventHash& hash : hashes) {
     Ballistic motion = Ballistic::create({.start = start}).value();
     World world = World::create({.contacts = ContactEvents::impacts}).value();
+    use_windows(world);
     BodyMap bodies;
     for (std::uint32_t k = 0; k < start.size(); ++k)
       bodies.add_rigid_body(world, motion, k, dumbbell({}, {}, {0, 0.5, 1.0 * k})).value();
