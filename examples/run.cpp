@@ -37,7 +37,7 @@ int main() {
   double hardest = 0.0;
   const auto sink = [&](const Event& event) { hardest = std::max(hardest, event.approach_speed); };
 
-  Workers workers = Workers::create(std::clamp(int(std::thread::hardware_concurrency()), 1, 8)).value();
+  Workers workers = Workers::create(std::clamp(int(std::thread::hardware_concurrency()), 2, 8)).value();
   for (const double until : {1.0, 2.0, 3.0}) {
     if (const auto run = world.run(until, mover, respond, sink, &workers); !run) {
       std::printf("%s\n", run.error().message.c_str());

@@ -747,7 +747,7 @@ typedef int32_t (*ks_sink)(const ks_event* event, void* user);
 /// How ks_world_run() answers events.
 typedef struct ks_run_definition {
   uint32_t struct_size;
-  int32_t threads;       ///< from 1 to 256, with the calling one; the outcome is the same
+  int32_t threads;       ///< from 1 to 256, with the calling one; same outcome from two on
   double restitution;    ///< in [0, 1]: bodies bounce as by ks_bounce(); NaN: they pass through each other
   double resting_speed;  ///< as for ks_bounce()
   ks_respond respond;    ///< if not NULL, it answers events instead

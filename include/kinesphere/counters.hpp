@@ -14,19 +14,19 @@ struct Counters {
   std::array<std::uint64_t, event_kind_count> events{};
   /// Probed states, one per body and call.
   std::uint64_t probes = 0;
-  /// window_ends: times at which windows ended. starts: bodies whose windows ended; each of them got a new
-  /// window.
+  /// starts: bodies that got another safe region, since they might have left theirs; with several threads,
+  /// another window, since theirs ended. window_ends: times at which windows ended; 0 without windows.
   std::uint64_t window_ends = 0;
   std::uint64_t starts = 0;
-  /// Bodies whose certificates became invalid within their window: bodies that were added, changed, given a
-  /// new velocity, or that violated their motion limits.
+  /// Bodies whose certificates became invalid: bodies that were added, changed, given a new velocity, or that
+  /// violated their motion limits.
   std::uint64_t restarts = 0;
   /// Certificates that reached their failure time: of pairs, and of bodies and the walls.
   std::uint64_t pair_checks = 0;
   std::uint64_t wall_checks = 0;
-  /// searches: broad-phase searches for the bodies that may come near a body before its window ends.
-  /// candidates: bodies found by them. hot_pairs: candidates whose pair got a certificate that fails before
-  /// the window ends.
+  /// searches: searches for the bodies that may come near a body while it is in its safe region, or its
+  /// window. candidates: bodies found by them. hot_pairs: pairs whose certificate was found to fail while the
+  /// body is there.
   std::uint64_t searches = 0;
   std::uint64_t candidates = 0;
   std::uint64_t hot_pairs = 0;
@@ -59,7 +59,7 @@ struct Counters {
     jammed_contacts += more.jammed_contacts;
     return *this;
   }
-  /// Returns the number of window starts, restarts, pair checks and wall checks.
+  /// Returns the number of starts, restarts, pair checks and wall checks.
   std::uint64_t steps() const { return starts + restarts + pair_checks + wall_checks; }
   /// Returns the number of delivered events of one kind.
   std::uint64_t count(EventKind kind) const { return events[static_cast<std::size_t>(kind)]; }

@@ -34,8 +34,8 @@ namespace kinesphere {
 /// allocator; a tree node counts with four pointers.
 struct Memory {
   std::size_t bodies = 0;     ///< definitions and bounds
-  std::size_t windows = 0;    ///< windows of the bodies, in the cells of the grid levels
-  std::size_t pairs = 0;      ///< certificates that fail before a window ends
+  std::size_t windows = 0;    ///< safe regions of the bodies, or their windows, in cells
+  std::size_t pairs = 0;      ///< lists of neighbours and due times, or certificates
   std::size_t contacts = 0;   ///< contacts, and pending events
   std::size_t recording = 0;  ///< the recording so far
   std::size_t other = 0;
@@ -61,7 +61,7 @@ enum class ProbeReason : std::uint8_t {
   narrow_misses,  ///< it comes near other bodies, walls or sensor distances without touching them
   loose_limit,    ///< its acceleration limit is over 4 times the largest acceleration that reports showed
   contacts,       ///< its contacts begin often, and each needs probes
-  travel,         ///< it moves through space; its windows of time end
+  travel,         ///< it moves through space, and leaves its safe regions
   changes,        ///< the caller changes it, or its reports violate its bound
   queries,        ///< queries and predictions with a probe ask for it
 };
@@ -79,7 +79,7 @@ struct BusyBody {
   std::uint64_t probes = 0;
   std::uint64_t touching = 0;  ///< for a body or wall that it touches
   std::uint64_t near = 0;      ///< for a body, wall or sensor distance that it may reach or leave
-  std::uint64_t windows = 0;   ///< at ends of its windows of time
+  std::uint64_t windows = 0;   ///< as it left its safe regions
   std::uint64_t changes = 0;   ///< after changes by the caller and violated bounds
   std::uint64_t queries = 0;   ///< for queries and predictions with a probe
   /// Events contact_begin and wall_begin of the body.
@@ -93,20 +93,20 @@ struct BusyBody {
   friend constexpr bool operator==(const BusyBody&, const BusyBody&) = default;
 };
 
-/// A non-empty cell of the broad phase. Bodies of about equal size and speed share a grid level; each level
-/// has its own cells, which are cubes cut into four slices.
+/// A non-empty cell of the broad phase. Bodies with safe regions of about equal size share a level; each
+/// level has its own cells.
 struct CellView {
   Box box{};
-  std::size_t bodies = 0;  ///< number of bodies with the centre of their box in the cell
+  std::size_t bodies = 0;  ///< number of bodies with the centre of their safe region in the cell
 
   friend constexpr bool operator==(const CellView&, const CellView&) = default;
 };
 
-/// Certificate of a pair, or of a body and the walls. Before `until` the pair does not begin or end to
-/// touch or to sense each other (a body and the walls: the set of walls that the body touches does not
-/// change), while its bodies keep their motion limits and nothing changes them. A pair without a
-/// certificate is apart at least until the earliest BodyView::box_end of the two; a body without a wall
-/// certificate reaches or leaves no wall until its box_end.
+/// Certificate of a pair, or of a body and the walls. A body has at most one, the one that fails first.
+/// Before `until` the pair does not begin or end to touch or to sense each other (a body and the walls: the
+/// set of walls that the body touches does not change), while its bodies keep their motion limits and nothing
+/// changes them. A pair without a certificate is apart at least until the earliest BodyView::box_end of the
+/// two; a body without a wall certificate reaches or leaves no wall until its box_end.
 struct Certificate {
   BodyId first;   ///< first < second
   BodyId second;  ///< no_body for the walls
@@ -142,7 +142,7 @@ class [[nodiscard]] World::Inspection {
   /// reason: the most probed first, equally probed ones by index. Bodies without a probe and removed bodies
   /// are left out. Switch profiling off and on to count anew. While no body has been removed, all bodies add
   /// up to the increase of Counters::probes. Unlike timings(), the result is deterministic, and equal for a
-  /// loop over advance() and for run() with any number of workers. Errors: not_profiling, if profiling was
+  /// loop over advance() and for run(). Errors: not_profiling, if profiling was
   /// never on. Cost: O(n).
   Result<std::vector<BusyBody>> busiest(std::size_t count) const;
   /// True from World::start_recording() to stop_recording().

@@ -9,10 +9,10 @@
 //   const auto sink = [&](const Event& event) { log(event); };
 //   world.run(60.0, source, respond, sink).value();
 //
-// A loop over World::advance() gives the same result. The loop may do anything at an event, whereas run()
-// knows in advance what an event can do, as a function of the event alone: change the velocities of its
-// bodies, remove them, disable them or put them to sleep. Where more is to be done, as adding bodies, the
-// response asks for a stop (Response::stop), at which the sink may do what the loop may.
+// A loop over World::advance() gives the same result, bit for bit with one thread. The loop may do anything
+// at an event, whereas run() knows in advance what an event can do, as a function of the event alone: change
+// the velocities of its bodies, remove them, disable them or put them to sleep. Where more is to be done, as
+// adding bodies, the response asks for a stop (Response::stop), at which the sink may do what the loop may.
 #pragma once
 
 #include <cstdint>

@@ -343,9 +343,9 @@ class World {
 
   /// Advances to time `until`. For each event, run() calls `respond`, passes the velocities of the response
   /// to the motion source and to the world, removes, disables or puts to sleep the bodies for which the
-  /// response says so, and calls `sink`. The events, the ids of bodies that the sink adds (Response::stop),
-  /// the probed states and a recording equal, bit for bit, those of a loop over advance() that does the same.
-  /// Counters of internal work may differ with several workers.
+  /// response says so, and calls `sink`. With one thread, or with fewer than 1,024 bodies, the events, the
+  /// ids of bodies that the sink adds (Response::stop), the probed states and a recording equal, bit for bit,
+  /// those of a loop over advance() that does the same.
   ///
   /// The sink may call body(), touching(), sensor_overlaps(), time() and every other member that is allowed
   /// inside a pair filter. These show the world at a moment that is not before the event and may be after
@@ -365,9 +365,12 @@ class World {
   /// can therefore pass over an event that `respond` cannot handle. Until they have been delivered, save(),
   /// start_recording() and stop_recording() fail with run_in_progress.
   ///
-  /// The workers (workers.hpp) share the work, with the same outcome. With several workers, events are
-  /// delivered in batches. Events are processed one at a time while bodies sleep, or the world is recorded or
-  /// profiled. While a pair filter is set, the workers are not used at all: it is called on this thread.
+  /// Workers (workers.hpp) with several threads share the work of a world with 1,024 bodies or more, and
+  /// events are delivered in batches. From then on, windows find the contacts of this world
+  /// (docs/architecture.md): the events are the same, at times that differ by rounding and by what the
+  /// contact tolerance allows, and equal bit for bit for any number of threads from two on. Events are
+  /// processed one at a time while bodies sleep. While the world is recorded or profiled, or has a pair
+  /// filter or a rotation probe, this thread does all.
   ///
   /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity or an action in a
   /// response, those of set_velocity() or sleep() and, for the second body of an event without one,

@@ -587,7 +587,7 @@ impl World {
     /// At an event whose response has [`Response::stop`] the world is at the time of the event, and `on_event` may
     /// change it: add and remove bodies, teleport them. Elsewhere such calls fail with `run_in_progress`, as `advance`
     /// and `run` always do. Motions must move all bodies; one that a response removes leaves its motion, too. The
-    /// outcome is the same for any number of threads.
+    /// outcome is the same, bit for bit, for any number of threads from two on.
     pub fn run<F: FnMut(&mut World, &Event)>(
         &mut self,
         until: f64,

@@ -109,8 +109,8 @@ class Core {
   double region_reach(std::uint32_t number) const {
     return double{cells_.reach_of(balls_[number].slot)} * unit_;
   }
-  /// Returns the cells of safe regions that are not empty, each with the number of regions whose centres are in
-  /// it. Cost: O(n log n).
+  /// Returns the cells of safe regions that are not empty, each with the number of regions whose centres are
+  /// in it. Cost: O(n log n).
   std::vector<std::pair<Box, std::size_t>> cells() const;
   /// Returns the median reach of safe regions (length), as it was when cells were last chosen.
   double median_reach() const { return cells_.median_reach() * unit_; }
@@ -186,7 +186,7 @@ class Core {
   NeighbourLists lists_;
   RegionCells cells_;
   DueQueue queue_;
-  double first_radius_ = 0.0;        ///< of the first safe region of a ball that arrives alone (length)
+  double first_radius_ = 0.0;  ///< of the first safe region of a ball that arrives alone (length)
   /// From a snapshot, by number.
   struct Saved {
     std::vector<float> reaches;  ///< with which safe regions were entered
@@ -194,9 +194,9 @@ class Core {
     static void serialize(auto& self, auto& archive) { archive(self.reaches, self.lists); }
   };
   Saved saved_;
-  std::size_t present_ = 0;          ///< how many balls there are
-  std::size_t measured_ = 0;         ///< how many there were when first_radius_ was chosen
-  std::size_t queued_for_ = 0;       ///< how many numbers there were when the queue was filled
+  std::size_t present_ = 0;     ///< how many balls there are
+  std::size_t measured_ = 0;    ///< how many there were when first_radius_ was chosen
+  std::size_t queued_for_ = 0;  ///< how many numbers there were when the queue was filled
   // Members only to reuse their memory.
   RegionSearch search_;
   std::vector<std::uint32_t> gone_, new_, settling_;

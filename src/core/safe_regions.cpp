@@ -16,7 +16,8 @@ namespace {
 constexpr double ahead = 0.6;
 /// A ball that may leave its safe region reports first if its bound has grown by this part of the region.
 constexpr double growth_worth_a_report = 0.25;
-/// The largest radius of a safe region (region units), whose square is an ordinary number in single precision.
+/// The largest radius of a safe region (region units), whose square is an ordinary number in single
+/// precision.
 constexpr double largest_region = 0x1p60;
 /// It keeps its safe region if it stays in it for this part of the time since its last report.
 constexpr double stay_worth_keeping = 0.0625;

@@ -66,10 +66,10 @@ class World::Run final : private ResponseHandler {
     world_.running_ = true;
     const ScopeGuard stop([&] { world_.running_ = false; });
     if (!deliver()) return {};
+    gain_ = lease_.gain();
     // Clusters of several threads are those of windows.
     if (may_share_work()) world_.changeable().changes().use_windows();
     world_.changeable().begin_call(until_);
-    gain_ = lease_.gain();
     for (;;) {
       const auto done = work();
       if (!done) return done.error();
@@ -107,16 +107,17 @@ class World::Run final : private ResponseHandler {
     return step_batch();
   }
 
-  /// Returns false if one thread does all, however many there are. Recording and profiling require events to
-  /// be processed one at a time, and a rotation probe has to be called in the order of time.
+  /// Returns true if several threads may work. What few bodies need is done before other threads have begun.
+  /// Recording and profiling require events to be processed one at a time, and a rotation probe has to be
+  /// called in the order of time.
   bool may_share_work() const {
-    return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ && !world_.engine_->bodies().rigid.probe;
-  }
-  /// Returns true if several threads work. What few bodies need is done before other threads have begun.
-  bool shares_work() const {
     constexpr std::size_t fewest_bodies = 1024;
     if (gain_ != nullptr && world_.engine_->bodies().table().live_count() < fewest_bodies) return false;
-    return may_share_work() && world_.undelivered_->empty();
+    return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ &&
+           !world_.engine_->bodies().rigid.probe;
+  }
+  bool shares_work() const {
+    return !world_.engine_->state().core && may_share_work() && world_.undelivered_->empty();
   }
 
   /// Returns true if one thread does all for some time, because the processors are busy.

@@ -120,7 +120,7 @@ TEST(Frames, ProbeTellsOfABodyThatTheyDoNotHave) {
   World world = World::create({}).value();
   for (std::uint32_t body = 0; body < 2; ++body) world.add(frames.definition(body, 0.0)).value();
   const BodyId bullet =
-      world.add({.radius = 0.1, .acceleration_limit = 5, .position = {0, 2, 0}, .velocity = {0, 50, 0}})
+      world.add({.radius = 0.1, .acceleration_limit = 5000, .position = {0, 2, 0}, .velocity = {0, 50, 0}})
           .value();
   const std::vector<Vec3> position = frames.latest();
   try {

@@ -4,13 +4,13 @@
 #include <span>
 
 #include "kinesphere/run.hpp"
-#include "kinesphere/workers.hpp"
 #include "kinesphere/world.hpp"
+#include "support/eager_workers.hpp"
 
 namespace kinesphere {
 
-/// Makes a world go on in windows. Its bodies have been added at the present time. Events of this time are not
-/// lost: the run stops before it answers the first one.
+/// Makes a world go on in windows. Its bodies have been added at the present time. Events of this time are
+/// not lost: the run stops before it answers the first one.
 inline void use_windows(World& world) {
   struct Stop {};
   struct Nobody final : MotionSource {
@@ -18,11 +18,14 @@ inline void use_windows(World& world) {
     MotionOrigin origin(BodyId) const override { return {}; }
     void set_origin(BodyId, const MotionOrigin&) override {}
   };
-  Workers two = Workers::create(2).value();
+  Workers two = eager_workers(2).value();
   Nobody nobody;
   const auto respond = [](const Event&) -> Response { throw Stop(); };
   try {
-    world.run(world.time(), nobody, respond, [](const Event&) {}, &two).value();
+    world
+        .run(
+            world.time(), nobody, respond, [](const Event&) {}, &two)
+        .value();
   } catch (const Stop&) {
   }
 }

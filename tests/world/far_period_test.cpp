@@ -1,5 +1,5 @@
-// Windows in periodic space far from its origin, with half a period below the resolution of single precision: bodies
-// with swept spheres nearly as wide as allowed, which overlap by a sliver.
+// Windows in periodic space far from its origin, with half a period below the resolution of single precision:
+// bodies with swept spheres nearly as wide as allowed, which overlap by a sliver.
 #include <gtest/gtest.h>
 
 #include <cmath>

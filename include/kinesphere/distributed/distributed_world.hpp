@@ -9,9 +9,9 @@
 //   world.run(60.0, respond, sink).value();
 //
 // The processes are the ranks of MPI_COMM_WORLD, started by mpirun. Each rank owns the bodies in its region
-// of space and holds ghosts of bodies nearby. Events are bitwise equal to those of one World::run with equal
-// bodies and indices, for any number of ranks and threads and any assignment of bodies to the ranks that add
-// them.
+// of space and holds ghosts of bodies nearby. Events are bitwise equal to those of one World::run with
+// several threads, equal bodies and indices, for any number of ranks and threads and any assignment of bodies
+// to the ranks that add them.
 #pragma once
 
 #include <cstddef>
