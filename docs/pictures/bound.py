@@ -11,7 +11,7 @@ START, SPEED, RADIUS, LIMIT = -9.0, 2.2, 0.5, 0.92
 
 def run():
     """Returns the course, samples of the first body's bound (time, centre, radius, time of its report), and its probes:
-    time, and the body that it came near, or None where a window ended."""
+    time, and the body that it came near, or None where it left its safe region."""
     course = Course(
         [
             weaving(START, SPEED, 1.0, 0.95),
@@ -49,7 +49,7 @@ def bound_at(course, time, report):
 
 
 def cause_mark(picture, x, y, near):
-    """A disc where the ring came near another body, a square where a window ended."""
+    """A disc where the ring came near another body, a square where it left its safe region."""
     if near:
         picture.circle(x, y, 7.5, "probe-area")
     else:
@@ -69,7 +69,7 @@ def draw():
         722,
         "A bound that grows and is reset",
         "A body weaves through four others. Rings around where it would be if it went straight on grow, until a probe "
-        "shrinks them to the body: where a ring touches another body, or where a window ends. Below, the radius of the "
+        "shrinks them to the body: where a ring touches another body, or where it may leave its safe region. Below, the radius of the "
         "rings over time.",
         size=22,
     )
@@ -120,6 +120,6 @@ def legend(picture):
     picture.text(20, 568, "The ring holds all places where the body can be.")
     picture.text(20, 598, "It grows by half the acceleration limit × time².")
     picture.text(20, 634, "A probe shrinks it to the body again:")
-    for row, near, words in ((667, True, "the ring touched another body"), (699, False, "a window ended")):
+    for row, near, words in ((667, True, "the ring touched another body"), (699, False, "it left its safe region")):
         cause_mark(picture, 34.0, row - 7.5, near)
         picture.text(54, row, words)

@@ -13,11 +13,11 @@ import charts
 import film
 import late
 import pair
-import window
+import regions
 
 PICTURES = {
     "bound": bound.draw,
-    "window": window.draw,
+    "regions": regions.draw,
     "pair": pair.draw,
     "late": late.draw,
     "build": charts.draw_build,

@@ -10,18 +10,18 @@ from kinesphere import EventKind
 
 
 def run():
-    """Returns the course, samples of time, true gap, certain gap and times of reports, the windows and the contact."""
+    """Returns the course, samples of time, true gap, certain gap and times of reports, the first body's safe regions and the contact."""
     course = Course([weaving(-6.0, 1.5, 0.8, 0.8), weaving(6.0, -1.5, 0.6, 0.7, 2.0)], [0.6, 0.6], [0.6, 0.6])
-    samples, events, windows = [], [], {}
+    samples, events, regions = [], [], {}
     known = lambda: tuple(course.world.body(body).report_time for body in course.ids)
     for time in np.unique(np.append(np.arange(0.0, 3.5, 0.02), np.arange(3.5, 3.7, 0.001))):
         events += course.advance(time)
         centres, radii = course.world.bounds(course.ids)
         true = math.dist(course.paths[0](time)[0], course.paths[1](time)[0]) - 1.2
-        windows.setdefault(course.world.body(course.ids[0]).box_end, time)
+        regions.setdefault(tuple(course.world.body(course.ids[0]).box.lower), time)
         samples.append((time, true, np.linalg.norm(centres[0] - centres[1]) - sum(radii), known()))
     (contact,) = [event for event in events if event.kind == EventKind.contact_begin]
-    return course, samples, [(begin, end) for end, begin in windows.items()], contact
+    return course, samples, list(regions.values()), contact
 
 
 def panel(picture, course, samples, contact, x, y, begin=0.0):
@@ -42,8 +42,7 @@ def panel(picture, course, samples, contact, x, y, begin=0.0):
 
 
 def draw():
-    course, samples, windows, contact = run()
-    found = max(begin for begin, _ in windows)  # the start of the window whose search finds the pair
+    course, samples, regions, contact = run()
     picture = Drawing(
         640,
         758,
@@ -63,11 +62,9 @@ def draw():
     panel(picture, course, samples, contact, x, y)
     for second in range(5):
         picture.text(x(second), y(0) + 28, f"{second} s", "quiet", "middle")
-    for begin, finish in windows:
-        class_ = "open-area" if begin == found else "quiet-area"
-        picture.rect(x(begin) + 1.5, y(0) + 42, x(min(finish, 4.0)) - x(begin) - 3, 12, class_, rx=6)
-    picture.text(x(1.0), y(0) + 82, "windows: no certificate", "quiet", "middle")
-    picture.text(x(3.0), y(0) + 82, "window: a certificate", "open", "middle")
+    for begin, finish in zip(regions, [*regions[1:], contact.time]):
+        picture.rect(x(begin) + 1.5, y(0) + 42, max(x(finish) - x(begin) - 3, 1.0), 12, "quiet-area", rx=6)
+    picture.text(x(1.9), y(0) + 82, "safe regions of one of the two", "quiet", "middle")
 
     zoomed = 3.54
     wide = lambda time: 414.0 + 194.0 * (time - zoomed) / (contact.time - zoomed)
