@@ -120,6 +120,9 @@ def legend(picture):
     picture.text(20, 568, "The ring holds all places where the body can be.")
     picture.text(20, 598, "It grows by half the acceleration limit × time².")
     picture.text(20, 634, "A probe shrinks it to the body again:")
-    for row, near, words in ((667, True, "the ring touched another body"), (699, False, "it left its safe region")):
+    for row, near, words in (
+        (667, True, "the ring touched another body"),
+        (699, False, "it left its safe region"),
+    ):
         cause_mark(picture, 34.0, row - 7.5, near)
         picture.text(54, row, words)
