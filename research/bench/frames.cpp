@@ -32,17 +32,10 @@ struct Play {
   std::string_view name;
   double percent;  ///< of the volume that balls fill
   bool eventful;
-  bool spreads = false;  ///< WorldDefinition::spread_window_starts
 };
 
-constexpr Play plays[] = {{"thin", 0.3, false},
-                          {"steady", 3.0, false},
-                          {"dense", 10.0, false},
-                          {"eventful", 3.0, true},
-                          {"spread-thin", 0.3, false, true},
-                          {"spread-steady", 3.0, false, true},
-                          {"spread-dense", 10.0, false, true},
-                          {"spread-eventful", 3.0, true, true}};
+constexpr Play plays[] = {
+    {"thin", 0.3, false}, {"steady", 3.0, false}, {"dense", 10.0, false}, {"eventful", 3.0, true}};
 
 /// Costs of the frames of a game: times, or counts.
 class FrameCosts {
@@ -86,8 +79,7 @@ void add_play(ResultTable& table, ResultTable& every_frame, const Play& play, st
   play_game({.bodies = bodies,
              .packing = 0.01 * play.percent,
              .frames = settings.first_frames + settings.frames,
-             .eventful = play.eventful,
-             .spread_window_starts = play.spreads},
+             .eventful = play.eventful},
             [&](const Counters& counters) {
               seconds.push_back(cpu_seconds());
               counted.push_back(counters);
@@ -114,7 +106,7 @@ void bench_frames(const BenchOptions& options, const Report& report) {
       fmt::format("Games at 60 frames a second. \"ms\" is CPU time of a frame, with motion and response; "
                   "\"work\" is about a "
                   "thousand instructions, computed from the counters of the world, so it is the same "
-                  "everywhere. \"spread\" games spread window starts. \"first\" is the worst "
+                  "everywhere. \"first\" is the worst "
                   "of the first {} frames, which the other columns leave out.",
                   settings.first_frames));
   ResultTable table(

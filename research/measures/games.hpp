@@ -17,7 +17,6 @@ struct GameLoopSettings {
   /// go, and with an explosion amid the frames that blows the 500 balls nearest to the centre away.
   bool eventful = false;
   std::uint64_t seed = 1;
-  bool spread_window_starts = false;  ///< WorldDefinition::spread_window_starts
 };
 
 /// Runs the game. Calls visit() with the counters of the world so far when all balls are in, before the first
