@@ -226,7 +226,8 @@ void RegionCells::rebuild(Balls& balls) {
 }
 
 void RegionCells::insert_all(Balls& balls, const std::vector<Entry>& all) {
-  blocks_.assign(std::bit_ceil(std::max<std::size_t>(all.size() / 4, 64)), RegionBlock());
+  // While cells were too narrow there may have been many blocks.
+  blocks_ = std::vector<RegionBlock>(std::bit_ceil(std::max<std::size_t>(all.size() / 4, 64)));
   mask_ = static_cast<std::uint32_t>(blocks_.size() - 1);
   regions_ = 0;
   for (Level& level : levels_) {

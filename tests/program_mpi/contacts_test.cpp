@@ -34,6 +34,7 @@ TEST_F(MpiProgramTest, ManyEventsAsJsonLines) {
   const std::string scene = "gas --bodies 4000 --seconds 1 --packing 0.4 --response pass_through";
   const Expected one = expected(scene, "jsonl");
   EXPECT_GT(lines_of(one.contacts).size(), 20000u);
+  EXPECT_EQ(run("run " + scene + " --hash-only --threads 2").out, one.hash) << "one world, on two threads";
   const ProgramRun all =
       run_mpi(2, "run " + scene + " --hash-only --threads 2 --contacts '" + path("all.jsonl") + "'");
   EXPECT_EQ(all.out, one.hash) << all.err;

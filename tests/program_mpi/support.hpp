@@ -26,7 +26,7 @@ class MpiProgramTest : public ProgramTest {
   };
   Expected expected(const std::string& scene, const std::string& ending = "csv") const {
     const std::string file = path("expected." + ending);
-    const ProgramRun one = run("run " + scene + " --hash-only --contacts '" + file + "'");
+    const ProgramRun one = run_mpi(1, "run " + scene + " --hash-only --contacts '" + file + "'");
     EXPECT_EQ(one.exit_code, 0) << one.err;
     Expected found{one.out, read_text(file)};
     std::filesystem::remove(file);
