@@ -80,18 +80,30 @@ void RegionCells::enter(Balls& balls, std::uint32_t ball, float reach) {
   if (++entered_ > regions_ + 64) rebuild(balls);
 }
 
+/// Returns the name of the cell of a region, and its place in the hash table.
+std::pair<std::uint64_t, std::uint32_t> RegionCells::cell_of(const Ball& ball, float reach) const {
+  const std::size_t number = level_of(reach);
+  const Level& level = levels_[number];
+  const std::int64_t x = wrapped(cell_on(level, 0, ball.centre[0]), level.count[0]);
+  const std::int64_t y = wrapped(cell_on(level, 1, ball.centre[1]), level.count[1]);
+  const std::int64_t z = wrapped(cell_on(level, 2, ball.centre[2]), level.count[2]);
+  return {name_of(number, x, y, z), (row_of(number, y, z) + static_cast<std::uint32_t>(x)) & mask_};
+}
+
+void RegionCells::prefetch(const Ball& ball, float reach) const {
+  const char* const block = reinterpret_cast<const char*>(&blocks_[cell_of(ball, reach).second]);
+  prefetch_line(block);
+  prefetch_line(block + 64);
+  prefetch_line(block + 128);
+}
+
 void RegionCells::insert(Balls& balls, std::uint32_t ball, float reach) {
   Ball& b = balls[ball];
-  const std::size_t number = level_of(reach);
-  Level& level = levels_[number];
+  Level& level = levels_[level_of(reach)];
   ++level.regions;
   ++regions_;
   level.largest_reach = std::max(level.largest_reach, reach);
-  const std::int64_t x = wrapped(cell_on(level, 0, b.centre[0]), level.count[0]);
-  const std::int64_t y = wrapped(cell_on(level, 1, b.centre[1]), level.count[1]);
-  const std::int64_t z = wrapped(cell_on(level, 2, b.centre[2]), level.count[2]);
-  const std::uint64_t name = name_of(number, x, y, z);
-  const std::uint32_t head = (row_of(number, y, z) + static_cast<std::uint32_t>(x)) & mask_;
+  const auto [name, head] = cell_of(b, reach);
   std::uint32_t place = none;
   for (std::uint32_t next = head; next != none; next = blocks_[next].next) {
     const RegionBlock& block = blocks_[next];

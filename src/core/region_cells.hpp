@@ -50,6 +50,8 @@ class RegionCells {
   /// Enters the safe region of a ball, and sets its slot. `reach` > 0.
   void enter(Balls& balls, std::uint32_t ball, float reach);
   void leave(Balls& balls, std::uint32_t ball);
+  /// Fetches what enter() will read.
+  void prefetch(const Ball& ball, float reach) const;
   /// Returns the reach with which the region in this slot was entered.
   float reach_of(std::uint32_t slot) const { return blocks_[slot / lanes].reach[slot % lanes]; }
   /// Finds all balls whose regions come within reach of that of `ball`.
@@ -91,6 +93,7 @@ class RegionCells {
   void set_width(Level& level, double width);
   std::int64_t cell_on(const Level& level, int axis, double x) const;
   Range range_on(const Level& level, int axis, double x, double reach) const;
+  std::pair<std::uint64_t, std::uint32_t> cell_of(const Ball& ball, float reach) const;
   void insert(Balls& balls, std::uint32_t ball, float reach);
   bool list_cells(std::size_t number, const RegionQuery& query, RegionSearch& search) const;
   void list_blocks(RegionSearch& search) const;

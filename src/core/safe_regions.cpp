@@ -143,8 +143,9 @@ void Core::place_region(std::uint32_t number, double radius) {
 
 /// Gives the ball another safe region, which has no part in the lists of neighbours yet.
 void Core::enter_region(std::uint32_t number, double radius, Host& host) {
-  cells_.leave(balls_, number);
   place_region(number, radius);
+  cells_.prefetch(balls_[number], reach(balls_[number]));
+  cells_.leave(balls_, number);
   cells_.enter(balls_, number, reach(balls_[number]));
   if (balls_.periods().any) host.note_image(number, region_centre(balls_[number]));
 }
@@ -155,9 +156,10 @@ void Core::find_neighbours(std::uint32_t number, Host& host) {
   std::vector<std::uint32_t>& found = search_.found;
   if (balls_[number].is(Ball::passive)) {
     for (const std::uint32_t other : found) {
-      if (balls_[other].is(Ball::passive) || balls_[other].is(Ball::arriving)) continue;
-      if (!host.may_meet(number, other)) continue;
-      lists_.insert(balls_[other].list, number);
+      if (balls_[other].is(Ball::passive) || !host.may_meet(number, other)) continue;
+      // One that arrives with it may have found it already.
+      const auto list = lists_.at(balls_[other].list);
+      if (!std::binary_search(list.begin(), list.end(), number)) lists_.insert(balls_[other].list, number);
       settling_.push_back(other);
     }
     return;
@@ -169,7 +171,7 @@ void Core::find_neighbours(std::uint32_t number, Host& host) {
   auto next = former.begin();
   std::size_t count = 0;
   for (const std::uint32_t other : found) {
-    if (other == number || balls_[other].is(Ball::arriving) || !host.may_meet(number, other)) continue;
+    if (other == number || !host.may_meet(number, other)) continue;
     found[count++] = other;
     while (next != former.end() && *next < other) gone_.push_back(*next++);
     if (next != former.end() && *next == other)
@@ -179,6 +181,11 @@ void Core::find_neighbours(std::uint32_t number, Host& host) {
   }
   found.resize(count);
   gone_.insert(gone_.end(), next, former.end());
+  for (const auto* const others : {&gone_, &new_})
+    for (const std::uint32_t other : *others) prefetch_line(&balls_[other].due);
+  for (const auto* const others : {&gone_, &new_})
+    for (const std::uint32_t other : *others)
+      if (!balls_[other].is(Ball::passive)) prefetch_line(lists_.address(balls_[other].list));
   for (const std::uint32_t other : gone_)
     if (!balls_[other].is(Ball::passive)) forget(other, number);
   for (const std::uint32_t other : new_)
