@@ -77,7 +77,8 @@ RegionCells::Range RegionCells::range_on(const Level& level, int axis, double x,
 
 void RegionCells::enter(Balls& balls, std::uint32_t ball, float reach) {
   insert(balls, ball, reach);
-  if (++entered_ > regions_ + 64) rebuild(balls);
+  const bool is_crowded = regions_ > 16 * (std::size_t{mask_} + 1);
+  if (++entered_ > regions_ + 64 || is_crowded) rebuild(balls);
 }
 
 /// Returns the name of the cell of a region, and its place in the hash table.
