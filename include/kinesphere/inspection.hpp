@@ -102,11 +102,12 @@ struct CellView {
   friend constexpr bool operator==(const CellView&, const CellView&) = default;
 };
 
-/// Certificate of a pair, or of a body and the walls. A body has at most one, the one that fails first.
-/// Before `until` the pair does not begin or end to touch or to sense each other (a body and the walls: the
-/// set of walls that the body touches does not change), while its bodies keep their motion limits and nothing
-/// changes them. A pair without a certificate is apart at least until the earliest BodyView::box_end of the
-/// two; a body without a wall certificate reaches or leaves no wall until its box_end.
+/// Certificate of a pair, or of a body and the walls: of each body the one that fails first; all of them
+/// where windows find contacts (World::run() with several threads). Before `until` the pair does not begin or
+/// end to touch or to sense each other (a body and the walls: the set of walls that the body touches does not
+/// change), while its bodies keep their motion limits and nothing changes them. A pair without a certificate
+/// does not change before the earliest BodyView::box_end of the two, nor before a certificate of either
+/// fails; a body without a wall certificate reaches or leaves no wall until its box_end.
 struct Certificate {
   BodyId first;   ///< first < second
   BodyId second;  ///< no_body for the walls

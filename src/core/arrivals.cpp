@@ -9,8 +9,10 @@
 namespace kinesphere::core {
 namespace {
 
-/// So many balls that arrive together are as far apart as they are on average.
-constexpr std::size_t few_arrivals = 32;
+/// So many balls that arrive at once look each for itself how far others are.
+constexpr std::size_t single_arrivals = 8;
+/// So many that arrive together are as far apart as they are on average.
+constexpr std::size_t even_arrivals = 32;
 /// A ball has so few neighbours at first.
 constexpr std::size_t few_neighbours = 8;
 /// A ball with so many neighbours is in a crowd.
@@ -25,12 +27,15 @@ void Core::place_arrivals(std::span<const std::uint32_t> changed, Host& host) {
     if (balls_[number].is(Ball::arriving)) arrivals.push_back(number);
   if (arrivals.empty()) return;
   choose_first_radius();
-  place_together(arrivals, host);
+  if (arrivals.size() > single_arrivals) {
+    place_together(arrivals, host);
+  } else {
+    for (const std::uint32_t number : arrivals) enter_region(number, radius_among_others(number), host);
+  }
   if (2 * arrivals.size() > present_) cells_.rebuild(balls_);
   for (const std::uint32_t number : arrivals) {
     balls_[number].set(Ball::arriving, false);
     find_neighbours(number, host);
-    note_search(host);
     join_crowd(number, host);
   }
   std::sort(settling_.begin(), settling_.end());
@@ -40,11 +45,9 @@ void Core::place_arrivals(std::span<const std::uint32_t> changed, Host& host) {
 /// Gives balls that arrive together first safe regions: each part of space, with about equally many of them,
 /// as wide ones as they are apart there.
 void Core::place_together(std::span<std::uint32_t> arrivals, Host& host) {
-  if (arrivals.size() <= few_arrivals) {
-    const bool are_many = arrivals.size() > few_arrivals / 4;
-    const double together = are_many ? first_radius_of(arrivals) : 0.0;
-    for (const std::uint32_t number : arrivals)
-      enter_region(number, are_many ? together : radius_among_others(number), host);
+  if (arrivals.size() <= even_arrivals) {
+    const double radius = first_radius_of(arrivals);
+    for (const std::uint32_t number : arrivals) enter_region(number, radius, host);
     return;
   }
   const Box extent = extent_of(arrivals);
@@ -85,7 +88,6 @@ void Core::join_crowd(std::uint32_t number, Host& host) {
   if (!(*middle < 0.7F * ball.region)) return;
   enter_region(number, double{*middle} * unit_, host);
   find_neighbours(number, host);
-  note_search(host);
 }
 
 /// Chooses the radius of the first safe region of a ball that arrives alone (length), anew when there are

@@ -101,6 +101,12 @@ class Core {
   };
   /// Returns the certificate that a ball waits for; nullopt if it is that of its safe region.
   std::optional<Certificate> certificate_of(std::uint32_t number) const;
+  /// Returns a time before which the ball stays in its safe region, and is due for nothing of which
+  /// certificate_of() does not tell.
+  double stays_until(std::uint32_t number) const {
+    const Ball& ball = balls_[number];
+    return ball.about == number ? ball.due : ball.own;
+  }
   /// Returns the numbers of all balls that may be within `radius` of `centre` (lengths), and possibly others,
   /// in any order.
   std::vector<std::uint32_t> find(const Vec3& centre, double radius) const;
@@ -143,7 +149,8 @@ class Core {
   void place_region(std::uint32_t number, double radius);
   void enter_region(std::uint32_t number, double radius, Host& host);
   void find_neighbours(std::uint32_t number, Host& host);
-  void note_search(Host& host) const;
+  void join_lists(std::uint32_t number, Host& host);
+  void update_lists(std::uint32_t number, Host& host);
   void forget(std::uint32_t number, std::uint32_t neighbour);
   void forget_neighbours(std::uint32_t number);
   double next_radius(std::uint32_t number);
@@ -153,7 +160,12 @@ class Core {
   Vec3 region_centre(const Ball& ball) const;
 
   // rebuild.cpp
-  struct Saved;
+  /// What a snapshot holds beside the balls, by number.
+  struct Saved {
+    std::vector<float> reaches;  ///< with which safe regions were entered
+    std::vector<std::vector<std::uint32_t>> lists;
+    static void serialize(auto& self, auto& archive) { archive(self.reaches, self.lists); }
+  };
   Saved saved() const;
   bool is_valid(std::uint32_t number) const;
 
@@ -186,14 +198,8 @@ class Core {
   NeighbourLists lists_;
   RegionCells cells_;
   DueQueue queue_;
-  double first_radius_ = 0.0;  ///< of the first safe region of a ball that arrives alone (length)
-  /// From a snapshot, by number.
-  struct Saved {
-    std::vector<float> reaches;  ///< with which safe regions were entered
-    std::vector<std::vector<std::uint32_t>> lists;
-    static void serialize(auto& self, auto& archive) { archive(self.reaches, self.lists); }
-  };
-  Saved saved_;
+  double first_radius_ = 0.0;   ///< of the first safe region of a ball that arrives alone (length)
+  Saved saved_;                 ///< from a snapshot, until rebuild()
   std::size_t present_ = 0;     ///< how many balls there are
   std::size_t measured_ = 0;    ///< how many there were when first_radius_ was chosen
   std::size_t queued_for_ = 0;  ///< how many numbers there were when the queue was filled

@@ -142,15 +142,13 @@ void RegionCells::leave(Balls& balls, std::uint32_t ball) {
 }
 
 bool RegionCells::are_near(const Ball& a, float reach_of_a, const Ball& b, float reach_of_b) const {
-  float square = 0.0F;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    constexpr float rounder = 0x1.8p23F;
-    float way = b.centre[axis] - a.centre[axis];
-    if (float_periods_.any)
-      way -= float_periods_.length[axis] * ((way * float_periods_.inverse[axis] + rounder) - rounder);
-    square += way * way;
-  }
-  return square <= (reach_of_a + reach_of_b) * (reach_of_a + reach_of_b);
+  RegionBlock block;
+  block.x[0] = b.centre[0], block.y[0] = b.centre[1], block.z[0] = b.centre[2];
+  block.reach[0] = reach_of_b;
+  const std::uint32_t place = 0;
+  std::uint32_t found[lanes];
+  const RegionQuery query{a.centre[0], a.centre[1], a.centre[2], reach_of_a};
+  return regions_within_reach(&block, &place, 1, query, float_periods_, found) == 1;
 }
 
 std::vector<std::pair<Box, std::size_t>> RegionCells::filled() const {

@@ -76,7 +76,6 @@ void Core::move_region(std::uint32_t number, Host& host) {
   ++host.work_counters().starts;
   enter_region(number, next_radius(number), host);
   find_neighbours(number, host);
-  note_search(host);
 }
 
 /// Returns the radius of the next safe region (length). A wider one lasts longer, but has more neighbours,
@@ -153,17 +152,28 @@ void Core::enter_region(std::uint32_t number, double radius, Host& host) {
 /// Makes those within reach the neighbours of the ball, and it theirs; others are no longer.
 void Core::find_neighbours(std::uint32_t number, Host& host) {
   cells_.search(balls_[number], cells_.reach_of(balls_[number].slot), search_);
-  std::vector<std::uint32_t>& found = search_.found;
-  if (balls_[number].is(Ball::passive)) {
-    for (const std::uint32_t other : found) {
-      if (balls_[other].is(Ball::passive) || !host.may_meet(number, other)) continue;
-      // One that arrives with it may have found it already.
-      const auto list = lists_.at(balls_[other].list);
-      if (!std::binary_search(list.begin(), list.end(), number)) lists_.insert(balls_[other].list, number);
-      settling_.push_back(other);
-    }
-    return;
+  if (balls_[number].is(Ball::passive))
+    join_lists(number, host);
+  else
+    update_lists(number, host);
+  ++host.work_counters().searches;
+  host.work_counters().candidates += search_.found.size();
+}
+
+/// Puts a passive ball into the lists of those that were found, which look for it then.
+void Core::join_lists(std::uint32_t number, Host& host) {
+  for (const std::uint32_t other : search_.found) {
+    if (balls_[other].is(Ball::passive) || !host.may_meet(number, other)) continue;
+    // One that arrives with it may have found it already.
+    const auto list = lists_.at(balls_[other].list);
+    if (!std::binary_search(list.begin(), list.end(), number)) lists_.insert(balls_[other].list, number);
+    settling_.push_back(other);
   }
+}
+
+/// Makes those that were found the neighbours of a ball.
+void Core::update_lists(std::uint32_t number, Host& host) {
+  std::vector<std::uint32_t>& found = search_.found;
   std::sort(found.begin(), found.end());
   const auto former = lists_.at(balls_[number].list);
   gone_.clear();
@@ -191,11 +201,6 @@ void Core::find_neighbours(std::uint32_t number, Host& host) {
   for (const std::uint32_t other : new_)
     if (!balls_[other].is(Ball::passive)) lists_.insert(balls_[other].list, number);
   lists_.assign(balls_[number].list, found);
-}
-
-void Core::note_search(Host& host) const {
-  ++host.work_counters().searches;
-  host.work_counters().candidates += search_.found.size();
 }
 
 /// The ball no longer has this neighbour. If it is due about it, it looks for others then.

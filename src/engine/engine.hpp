@@ -62,7 +62,7 @@ class World::Engine {
   }
   /// Returns the time until which the body stays in its box.
   double box_end(std::uint32_t number) const {
-    return state_.core ? state_.core->balls()[number].own : broad_phase().end_of(number);
+    return state_.core ? state_.core->stays_until(number) : broad_phase().end_of(number);
   }
   /// Returns all valid certificates, or those that involve the body `number`.
   std::vector<PairCertificate> certificates(std::optional<std::uint32_t> number = std::nullopt) const;
