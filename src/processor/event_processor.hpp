@@ -4,7 +4,8 @@
 // several processors concurrently (speculative_runner.hpp). A processor has a clock, a certificate queue and
 // the events of the current instant, and rechecks the certificates that are due.
 //
-// Invariant: whenever time advances, each pair of bodies satisfies one of these conditions:
+// With a core, the invariants of core/core.hpp hold whenever time advances, and the core knows what is due.
+// Invariant without one: whenever time advances, each pair of bodies satisfies one of these conditions:
 // - Their swept spheres do not touch before the earlier window end, and each body stays in its swept sphere
 //   until its own window ends.
 // - They neither change between touching and not touching nor cross a sensor distance before the earlier

@@ -109,7 +109,7 @@ class World::Engine::Audit {
   void check_registration(std::uint32_t number) {
     const Body& b = body(number);
     if (b.dirty) return;
-    if (!engine_.is_registered(number)) return find("registration", name(number) + " is in no window");
+    if (!engine_.is_registered(number)) return find("registration", name(number) + " is not registered");
     if (!core())
       if (const auto wrong = engine_.broad_phase().check(number))
         find("registration", name(number) + " " + *wrong);

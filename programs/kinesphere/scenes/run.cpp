@@ -184,7 +184,8 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
       ->check(finite_number());
   command
       ->add_option("--threads", options.threads,
-                   "Let the world go on by itself (World::run) with so many threads, with the same outcome")
+                   "Let the world go on by itself (World::run) with so many threads; the outcome is the same "
+                   "for any number from two on")
       ->check(whole_number(Workers::most_threads, 1));
   command->add_flag("--explain", options.explain,
                     "Print the bodies that cost most probes, with the reasons and what helps (one thread)");
