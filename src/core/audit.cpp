@@ -29,8 +29,7 @@ const char* Core::audit(const std::function<Claim(std::uint32_t, std::uint32_t)>
       if (!present(b)) continue;
       const Ball& other = balls_[b];
       const auto lists = [this](const Ball& one, std::uint32_t number) {
-        const auto list = lists_.at(one.list);
-        return std::binary_search(list.begin(), list.end(), number);
+        return lists_.contains(one.list, number);
       };
       const double regions = (double{ball.region} + double{other.region}) * unit_;
       const double distance = norm(balls_.nearest(region_centre(ball) - region_centre(other)));

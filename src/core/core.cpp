@@ -31,7 +31,6 @@ Periods periods_of(const Space& space) {
 
 Core::Core(const WorldDefinition& definition)
     : dimensions_(definition.dimensions),
-      walls_(walls_of(definition)),
       unit_(region_unit(definition)),
       margin_(rounding_margin(definition)),
       tolerance_(definition.contact_tolerance),
@@ -39,6 +38,9 @@ Core::Core(const WorldDefinition& definition)
       cells_(balls_.periods().length / unit_, definition.dimensions) {
   for (int axis = 0; axis < 3; ++axis)
     if (balls_.periods().length[axis] > 0.0) origin_[axis] = definition.box->lower[axis];
+  const std::optional<Box> box = walls_of(definition);
+  for (const Wall wall : kinesphere::walls)
+    if (box && stands(*box, wall)) walls_.emplace_back(wall, half_space(*box, wall));
 }
 
 void Core::enter(std::uint32_t number, const Bound& bound, bool is_passive, bool meets_walls) {
@@ -166,6 +168,7 @@ void Core::schedule(std::uint32_t number, Host& host) {
   if (ball.scans < 255) ++ball.scans;
   ball.about = none;
   ball.due = ball.second = ball.own;
+  ball.set(Ball::crowded, false);
   const auto neighbours = lists_.at(ball.list);
   Counters& work = host.work_counters();
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
@@ -185,7 +188,14 @@ void Core::schedule(std::uint32_t number, Host& host) {
   queue_.push(balls_.all(), number);
 }
 
+/// Something may happen between a ball and a neighbour at this time. Of two at the same time, the ball is due
+/// about the one with the lower number, in whatever order they are considered.
 void Core::consider(Ball& ball, std::uint32_t other, double time) {
+  if (time == ball.due && ball.about != none && other < ball.about) {
+    ball.second = time;
+    ball.about = other;
+    return;
+  }
   if (!(time < ball.second)) return;
   if (time < ball.due) {
     ball.second = ball.due;
@@ -224,15 +234,18 @@ std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32
 
 /// Returns a time before which nothing happens between two neighbours; +infinity if nothing does for
 /// `horizon` from now. Returns the present time if reports have to decide.
-double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon, Host& host) const {
+double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon, Host& host) {
   const BoundAt own = balls_.bound_now(number);
   BoundAt other = balls_.bound_now(neighbour);
   if (balls_.periods().any) other.centre = own.centre + balls_.nearest(other.centre - own.centre);
   const QuickReject pair(own, other);
   if (pair.stay_apart(horizon, margin_)) return infinity;
-  if (pair.is_near(tolerance_)) return host.unchanged_until(number, neighbour);
-  const double time = rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_));
-  return time > balls_.time() ? time : host.unchanged_until(number, neighbour);
+  if (!pair.is_near(tolerance_)) {
+    const double time = rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_));
+    if (time > balls_.time()) return time;
+  }
+  balls_[number].set(Ball::crowded, true);
+  return host.unchanged_until(number, neighbour);
 }
 
 /// Fetches what the balls that are due next need. Some of them may have been removed since they were queued.

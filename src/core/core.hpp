@@ -140,7 +140,7 @@ class Core {
   void consider(Ball& ball, std::uint32_t other, double time);
   std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
                            double duration) const;
-  double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon, Host& host) const;
+  double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon, Host& host);
   void prefetch() const;
 
   // safe_regions.cpp
@@ -167,7 +167,7 @@ class Core {
     static void serialize(auto& self, auto& archive) { archive(self.reaches, self.lists); }
   };
   Saved saved() const;
-  bool is_valid(std::uint32_t number) const;
+  bool is_valid(std::uint32_t number, std::span<const std::vector<std::uint32_t>> lists) const;
 
   // arrivals.cpp
   void place_arrivals(std::span<const std::uint32_t> changed, Host& host);
@@ -185,10 +185,10 @@ class Core {
   void limit_own(std::uint32_t number, double walls_until);
   double stays(std::uint32_t number) const;
   double clear_of_walls(std::uint32_t number, Host& host) const;
-  double clear_of_wall(std::uint32_t number, Wall wall) const;
+  double clear_of_wall(std::uint32_t number, const HalfSpace& inside) const;
 
   int dimensions_;
-  std::optional<Box> walls_;
+  std::vector<std::pair<Wall, HalfSpace>> walls_;  ///< that there are, and what is on the inner side of each
   Vec3 origin_{};     ///< of region units: the corner of the primary box on axes that repeat
   double unit_;       ///< one region unit (length), a power of two
   double margin_;     ///< for rounding (length)

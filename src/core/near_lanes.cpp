@@ -218,6 +218,25 @@ std::size_t regions_within_reach(const RegionBlock* blocks, const std::uint32_t*
                      : within_reach<false>(blocks, places, count, query, periods, found);
 }
 
+ListMatches compare_lists(const std::uint32_t* list, std::size_t length, const std::uint32_t* present,
+                          std::size_t count) {
+  const hn::CappedTag<std::uint32_t, most_list_lanes> d;
+  const auto first = [](std::size_t bits) { return bits < 64 ? (std::uint64_t{1} << bits) - 1 : ~std::uint64_t{0}; };
+  std::uint64_t of_list = first(length), of_present = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto number = hn::Set(d, present[k]);
+    std::uint64_t same = 0;
+    for (std::size_t from = 0; from < length; from += hn::Lanes(d)) {
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, list + from), number), bits);
+      same |= std::uint64_t{bits[0]} << from;
+    }
+    of_present |= static_cast<std::uint64_t>((same & first(length)) == 0) << k;
+    of_list &= ~same;
+  }
+  return {of_list, of_present};
+}
+
 }  // namespace kinesphere::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -226,6 +245,7 @@ namespace kinesphere::core {
 
 HWY_EXPORT(may_meet);
 HWY_EXPORT(regions_within_reach);
+HWY_EXPORT(compare_lists);
 
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                        const NearQuery& query) {
@@ -236,6 +256,11 @@ std::size_t regions_within_reach(const RegionBlock* blocks, const std::uint32_t*
                                  const RegionQuery& query, const FloatPeriods& periods,
                                  std::uint32_t* found) {
   return HWY_DYNAMIC_DISPATCH(regions_within_reach)(blocks, places, count, query, periods, found);
+}
+
+ListMatches compare_lists(const std::uint32_t* list, std::size_t length, const std::uint32_t* present,
+                          std::size_t count) {
+  return HWY_DYNAMIC_DISPATCH(compare_lists)(list, length, present, count);
 }
 
 }  // namespace kinesphere::core

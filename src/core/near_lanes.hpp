@@ -51,13 +51,12 @@ inline constexpr std::size_t most_lanes = 32;
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                        const NearQuery& query);
 
-/// Eight safe regions of one cell.
+/// Eight safe regions of a chain of cells.
 struct alignas(64) RegionBlock {
   static constexpr std::uint32_t lanes = 8;
   float x[lanes], y[lanes], z[lanes];
   float reach[lanes];  ///< NaN where there is no region: nothing is within reach of it
   std::uint32_t balls[lanes];
-  std::uint64_t cell = 0;
   std::uint32_t next = none;
   std::uint32_t count = 0;
 
@@ -76,5 +75,17 @@ struct FloatPeriods {
 /// must be room for eight in each block.
 std::size_t regions_within_reach(const RegionBlock* blocks, const std::uint32_t* places, std::size_t count,
                                  const RegionQuery& query, const FloatPeriods& periods, std::uint32_t* found);
+
+/// Most numbers in a list that is compared with another.
+inline constexpr std::size_t most_compared = 64;
+/// So many numbers behind those of a list are read.
+inline constexpr std::size_t most_list_lanes = 8;
+/// Bits of the numbers of each of two lists that are not in the other one.
+struct ListMatches {
+  std::uint64_t unmatched_of_list, unmatched_of_present;
+};
+/// Compares two lists of at most `most_compared` numbers. Behind `list` there are `most_list_lanes` numbers to read, of any value.
+ListMatches compare_lists(const std::uint32_t* list, std::size_t length, const std::uint32_t* present,
+                          std::size_t count);
 
 }  // namespace kinesphere::core

@@ -55,8 +55,8 @@ double Core::clear_of_walls(std::uint32_t number, Host& host) const {
   const Ball& ball = balls_[number];
   if (ball.walls == 0) return infinity;
   double clear = ball.is(Ball::linked) ? 0.0 : infinity;
-  for (const Wall wall : kinesphere::walls)
-    if ((ball.walls & wall_bit(wall)) != 0) clear = std::min(clear, clear_of_wall(number, wall));
+  for (const auto& [wall, inside] : walls_)
+    if ((ball.walls & wall_bit(wall)) != 0) clear = std::min(clear, clear_of_wall(number, inside));
   if (clear == 0.0) return host.walls_unchanged_until(number);
   return std::max(rounding::sum_down(balls_.time(), clear), balls_.time());
 }
@@ -106,8 +106,7 @@ double Core::stays(std::uint32_t number) const {
 }
 
 /// Returns a time for which the ball does not touch this wall; 0 if it may do so now.
-double Core::clear_of_wall(std::uint32_t number, Wall wall) const {
-  const HalfSpace inside = half_space(*walls_, wall);
+double Core::clear_of_wall(std::uint32_t number, const HalfSpace& inside) const {
   const Vec3& inwards = inside.normal;
   const double speed = dot(inwards, balls_.velocity(number)) - balls_.growth_speed(number);
   const double acceleration = dot(inwards, balls_.plan(number)) - balls_[number].acceleration_limit;

@@ -25,8 +25,10 @@ bool Core::rebuild(double time) {
   if (!balls_.has_valid_drifts() || saved_.reaches.size() != balls_.size() ||
       saved_.lists.size() != balls_.size())
     return false;
+  std::vector<std::vector<std::uint32_t>> sorted = saved_.lists;
+  for (std::vector<std::uint32_t>& list : sorted) std::sort(list.begin(), list.end());
   for (std::uint32_t number = 0; number < balls_.size(); ++number)
-    if (!is_valid(number)) return false;
+    if (!is_valid(number, sorted)) return false;
   for (std::uint32_t number = 0; number < balls_.size(); ++number) {
     Ball& ball = balls_[number];
     if (!ball.is_present()) continue;
@@ -42,11 +44,11 @@ bool Core::rebuild(double time) {
   return true;
 }
 
-/// Returns false if no ball can be like this one, which was read from bytes.
-bool Core::is_valid(std::uint32_t number) const {
+/// Returns false if no ball can be like this one, which was read from bytes. `lists`: in ascending order.
+bool Core::is_valid(std::uint32_t number, std::span<const std::vector<std::uint32_t>> lists) const {
   const Ball& ball = balls_[number];
   if (!balls_.is_valid(number) || !(ball.radius < 0x1p32 * unit_)) return false;
-  const std::vector<std::uint32_t>& neighbours = saved_.lists[number];
+  const std::vector<std::uint32_t>& neighbours = lists[number];
   if (!ball.is_present()) return neighbours.empty();
   const float reach = saved_.reaches[number];
   if (!(reach > 0.0F && reach < 0x1p62F)) return false;
@@ -60,7 +62,7 @@ bool Core::is_valid(std::uint32_t number) const {
     if (!contains(other) || other == number || balls_[other].is(Ball::arriving) ||
         !cells_.are_near(ball, reach, balls_[other], saved_.reaches[other]))
       return false;
-    const std::vector<std::uint32_t>& others = saved_.lists[other];
+    const std::vector<std::uint32_t>& others = lists[other];
     return balls_[other].is(Ball::passive) || std::binary_search(others.begin(), others.end(), number);
   });
 }

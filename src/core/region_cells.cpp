@@ -4,12 +4,15 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <tuple>
 
+#include "number/infinity.hpp"
 #include "number/roots.hpp"
 
 namespace kinesphere::core {
 namespace {
+
+/// Widest cells, in reaches of the largest region of their level.
+constexpr double widest = 32.0;
 
 std::int64_t wrapped(std::int64_t cell, std::int64_t count) {
   if (count == 0) return cell;
@@ -17,19 +20,11 @@ std::int64_t wrapped(std::int64_t cell, std::int64_t count) {
   return cell >= count ? cell - count : cell;
 }
 
-std::uint64_t name_of(std::size_t level, std::int64_t x, std::int64_t y, std::int64_t z) {
-  constexpr std::int64_t bits = (1 << 20) - 1;
-  return static_cast<std::uint64_t>(level) << 60 | static_cast<std::uint64_t>(z & bits) << 40 |
-         static_cast<std::uint64_t>(y & bits) << 20 | static_cast<std::uint64_t>(x & bits);
-}
-
-/// Place in the hash table of the cell with x = 0.
-std::uint32_t row_of(std::size_t level, std::int64_t y, std::int64_t z) {
-  std::uint64_t h = static_cast<std::uint64_t>(y) * 0x9E3779B97F4A7C15u +
-                    static_cast<std::uint64_t>(z) * 0xC2B2AE3D27D4EB4Fu +
-                    static_cast<std::uint64_t>(level) * 0x165667B19E3779F9u;
-  h ^= h >> 29;
-  return static_cast<std::uint32_t>(h * 0xBF58476D1CE4E5B9u >> 32);
+/// Rounds towards minus infinity.
+std::int64_t whole(double value) {
+  value = std::clamp(value, -0x1p60, 0x1p60);
+  const auto below = static_cast<std::int64_t>(value);
+  return below - static_cast<std::int64_t>(static_cast<double>(below) > value);
 }
 
 }  // namespace
@@ -53,46 +48,43 @@ std::size_t RegionCells::level_of(float reach) const {
 
 void RegionCells::set_width(Level& level, double width) {
   level.width = width;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    level.by_width[a] = 1.0 / width;
-    if (!(period_[axis] > 0.0)) continue;
-    level.count[a] = std::max<std::int64_t>(static_cast<std::int64_t>(period_[axis] / width), 1);
-    level.by_width[a] = static_cast<double>(level.count[a]) / period_[axis];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Axis& a = level.axes[axis];
+    const double period = period_[static_cast<int>(axis)];
+    a.count = period > 0.0 ? std::max<std::int64_t>(static_cast<std::int64_t>(period / width), 1) : 0;
+    a.width = period > 0.0 ? period / static_cast<double>(a.count) : width;
+    a.by_width = 1.0 / a.width;
+    a.filled = a.count > 0 ? Range{0, a.count - 1} : Range();
+    a.reserved = Range();
   }
 }
 
-/// Cell on an axis. On an axis that repeats, centres lie in the primary box, hardly beyond for rounding, and
-/// ranges reach one box beyond.
-std::int64_t RegionCells::cell_on(const Level& level, int axis, double x) const {
-  const double cell = std::floor(x * level.by_width[static_cast<std::size_t>(axis)]);
-  return static_cast<std::int64_t>(std::clamp(cell, -0x1p60, 0x1p60));
+/// Returns the cell of a centre. On an axis that repeats, centres lie in the primary box, hardly beyond for
+/// rounding.
+std::array<std::int64_t, 3> RegionCells::cell_of(const Level& level, float x, float y, float z) const {
+  const auto on = [](const Axis& axis, float at) {
+    return wrapped(whole(double{at} * axis.by_width), axis.count);
+  };
+  return {on(level.axes[0], x), on(level.axes[1], y), on(level.axes[2], z)};
 }
 
-RegionCells::Range RegionCells::range_on(const Level& level, int axis, double x, double reach) const {
-  const Range range{cell_on(level, axis, x - reach), cell_on(level, axis, x + reach)};
-  const std::int64_t count = level.count[static_cast<std::size_t>(axis)];
-  return count > 0 && range.last - range.first >= count ? Range{0, count - 1} : range;
+std::uint32_t RegionCells::chain_of(const Level& level, const std::array<std::int64_t, 3>& cell) const {
+  std::uint32_t chain = level.origin;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    chain += static_cast<std::uint32_t>(cell[axis]) * level.axes[axis].stride;
+  return chain & mask_;
 }
 
 void RegionCells::enter(Balls& balls, std::uint32_t ball, float reach) {
   insert(balls, ball, reach);
   const bool is_crowded = regions_ > 16 * (std::size_t{mask_} + 1);
-  if (++entered_ > regions_ + 64 || is_crowded) rebuild(balls);
-}
-
-/// Returns the name of the cell of a region, and its place in the hash table.
-std::pair<std::uint64_t, std::uint32_t> RegionCells::cell_of(const Ball& ball, float reach) const {
-  const std::size_t number = level_of(reach);
-  const Level& level = levels_[number];
-  const std::int64_t x = wrapped(cell_on(level, 0, ball.centre[0]), level.count[0]);
-  const std::int64_t y = wrapped(cell_on(level, 1, ball.centre[1]), level.count[1]);
-  const std::int64_t z = wrapped(cell_on(level, 2, ball.centre[2]), level.count[2]);
-  return {name_of(number, x, y, z), (row_of(number, y, z) + static_cast<std::uint32_t>(x)) & mask_};
+  if (++entered_ > 2 * regions_ + 64 || is_crowded) rebuild(balls);
 }
 
 void RegionCells::prefetch(const Ball& ball, float reach) const {
-  const char* const block = reinterpret_cast<const char*>(&blocks_[cell_of(ball, reach).second]);
+  const Level& level = levels_[level_of(reach)];
+  const auto cell = cell_of(level, ball.centre[0], ball.centre[1], ball.centre[2]);
+  const char* const block = reinterpret_cast<const char*>(&blocks_[chain_of(level, cell)]);
   prefetch_line(block);
   prefetch_line(block + 64);
   prefetch_line(block + 128);
@@ -104,22 +96,21 @@ void RegionCells::insert(Balls& balls, std::uint32_t ball, float reach) {
   ++level.regions;
   ++regions_;
   level.largest_reach = std::max(level.largest_reach, reach);
-  const auto [name, head] = cell_of(b, reach);
-  std::uint32_t place = none;
-  for (std::uint32_t next = head; next != none; next = blocks_[next].next) {
-    const RegionBlock& block = blocks_[next];
-    if (block.count == 0 && place == none) place = next;
-    if (block.count == 0 || block.count == lanes || block.cell != name) continue;
-    place = next;
-    break;
+  const auto cell = cell_of(level, b.centre[0], b.centre[1], b.centre[2]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Axis& a = level.axes[axis];
+    if (a.filled.contains(cell[axis])) continue;
+    a.filled = {std::min(a.filled.first, cell[axis]), std::max(a.filled.last, cell[axis])};
+    if (!a.reserved.contains(cell[axis])) level.shares = true;
   }
-  if (place == none) {
-    place = static_cast<std::uint32_t>(blocks_.size());
-    blocks_.emplace_back().next = blocks_[head].next;
-    blocks_[head].next = place;
+  std::uint32_t place = chain_of(level, cell);
+  while (blocks_[place].count == lanes && blocks_[place].next != none) place = blocks_[place].next;
+  if (blocks_[place].count == lanes) {
+    const auto fresh = static_cast<std::uint32_t>(blocks_.size());
+    blocks_.emplace_back();
+    place = blocks_[place].next = fresh;
   }
   RegionBlock& block = blocks_[place];
-  block.cell = name;
   const std::uint32_t lane = block.count++;
   block.x[lane] = b.centre[0], block.y[lane] = b.centre[1], block.z[lane] = b.centre[2];
   block.reach[lane] = reach;
@@ -152,159 +143,270 @@ bool RegionCells::are_near(const Ball& a, float reach_of_a, const Ball& b, float
 }
 
 std::vector<std::pair<Box, std::size_t>> RegionCells::filled() const {
-  std::map<std::tuple<std::size_t, std::int64_t, std::int64_t, std::int64_t>, std::size_t> counts;
+  std::map<std::pair<std::size_t, std::array<std::int64_t, 3>>, std::size_t> counts;
   for (const RegionBlock& block : blocks_)
     for (std::uint32_t lane = 0; lane < block.count; ++lane) {
       const std::size_t number = level_of(block.reach[lane]);
-      const Level& level = levels_[number];
-      ++counts[{number, cell_on(level, 0, block.x[lane]), cell_on(level, 1, block.y[lane]),
-                cell_on(level, 2, block.z[lane])}];
+      ++counts[{number, cell_of(levels_[number], block.x[lane], block.y[lane], block.z[lane])}];
     }
   std::vector<std::pair<Box, std::size_t>> all;
-  for (const auto& [cell, count] : counts) {
-    const auto& [number, x, y, z] = cell;
-    const std::array<double, 3>& by_width = levels_[number].by_width;
-    const Vec3 lower{static_cast<double>(x) / by_width[0], static_cast<double>(y) / by_width[1],
-                     static_cast<double>(z) / by_width[2]};
-    all.push_back({{lower, lower + Vec3{1.0 / by_width[0], 1.0 / by_width[1], 1.0 / by_width[2]}}, count});
+  for (const auto& [key, count] : counts) {
+    Vec3 lower, width;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      width[static_cast<int>(axis)] = levels_[key.first].axes[axis].width;
+      lower[static_cast<int>(axis)] =
+          static_cast<double>(key.second[axis]) * levels_[key.first].axes[axis].width;
+    }
+    all.push_back({{lower, lower + width}, count});
   }
   return all;
 }
 
-std::vector<RegionCells::Entry> RegionCells::entries() const {
-  std::vector<Entry> all;
-  all.reserve(regions_);
-  for (const RegionBlock& block : blocks_)
-    for (std::uint32_t lane = 0; lane < block.count; ++lane)
-      all.push_back({block.balls[lane], block.reach[lane]});
-  return all;
+/// Returns the slots of some regions: of all in some 32 blocks, evenly spread.
+std::vector<std::uint32_t> RegionCells::sample() const {
+  std::vector<std::uint32_t> some;
+  const std::size_t step = std::max<std::size_t>(blocks_.size() / 32, 1);
+  for (std::size_t place = 0; place < blocks_.size(); place += step)
+    for (std::uint32_t lane = 0; lane < blocks_[place].count; ++lane)
+      some.push_back(static_cast<std::uint32_t>(place) * lanes + lane);
+  return some;
 }
 
-/// Mean number of regions in the cell of a region.
-double RegionCells::crowding(std::size_t level) const {
-  double sum = 0.0;
-  for (std::uint32_t head = 0; head <= mask_; ++head)
-    for (std::uint32_t one = head; one != none; one = blocks_[one].next)
-      for (std::uint32_t other = head; other != none; other = blocks_[other].next)
-        if (blocks_[one].cell == blocks_[other].cell && blocks_[one].cell >> 60 == level)
-          sum += static_cast<double>(blocks_[one].count) * static_cast<double>(blocks_[other].count);
-  return sum / levels_[level].regions;
+/// Returns the mean number of regions in the cell of a region; 0 if there is none of this level among these.
+double RegionCells::crowding(std::size_t number, const std::vector<std::uint32_t>& some) const {
+  const Level& level = levels_[number];
+  const auto cell_in = [&](const RegionBlock& block, std::uint32_t lane) {
+    return cell_of(level, block.x[lane], block.y[lane], block.z[lane]);
+  };
+  double sum = 0.0, regions = 0.0;
+  for (const std::uint32_t slot : some) {
+    if (level_of(reach_of(slot)) != number) continue;
+    const auto cell = cell_in(blocks_[slot / lanes], slot % lanes);
+    regions += 1.0;
+    for (std::uint32_t place = chain_of(level, cell); place != none; place = blocks_[place].next)
+      for (std::uint32_t lane = 0; lane < blocks_[place].count; ++lane)
+        if (level_of(blocks_[place].reach[lane]) == number && cell_in(blocks_[place], lane) == cell)
+          sum += 1.0;
+  }
+  return regions > 0.0 ? sum / regions : 0.0;
 }
 
 /// Returns the width of cells that suits a level, given the present one. `narrowest`: of all levels.
-double RegionCells::wanted_width(std::size_t number, double narrowest) const {
+double RegionCells::wanted_width(std::size_t number, double narrowest,
+                                 const std::vector<std::uint32_t>& some) const {
   const Level& level = levels_[number];
-  const double by = std::clamp(wanted_in_cell / crowding(number), 0x1p-9, 0x1p9);
+  const double crowd = crowding(number, some);
+  if (!(crowd > 0.0)) return level.width;
+  const double by = std::clamp(wanted_in_cell / crowd, 0x1p-9, 0x1p9);
   const double width = level.width * (dimensions_ == 2 ? std::sqrt(by) : cube_root(by));
-  return std::clamp(width, narrowest, 4.0 * static_cast<double>(level.largest_reach));
+  return std::clamp(width, narrowest, widest * static_cast<double>(level.largest_reach));
 }
 
 void RegionCells::rebuild(Balls& balls) {
   entered_ = 0;
-  std::vector<Entry> all = entries();
-  if (all.empty()) return;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end(),
-                   [](const Entry& a, const Entry& b) { return a.reach < b.reach; });
-  const float median = middle->reach;
-  bool is_fine =
-      median < 1.25F * median_ && median > 0.8F * median_ && std::size_t{mask_} + 1 >= regions_ / 4;
-  if (!is_fine) {
+  if (regions_ == 0) return;
+  std::vector<float> reaches;
+  for (const std::uint32_t slot : sample()) reaches.push_back(reach_of(slot));
+  std::sort(reaches.begin(), reaches.end());
+  const float median = reaches[reaches.size() / 2];
+  // The first level has nearly all regions, but none that are much larger than most.
+  const float top = std::min(1.05F * reaches[reaches.size() - 1 - reaches.size() / 32], 2.0F * median);
+  const bool is_suited = median < 1.25F * median_ && median > 0.8F * median_ && top < 1.15F * levels_[0].top &&
+                         top > 0.75F * levels_[0].top && regions_ <= 2 * built_for_;
+  if (!is_suited) {
     median_ = median;
-    float top = 2.0F * median;
+    float bound = top;
     for (Level& level : levels_) {
-      level.top = top;
-      set_width(level, 2.0 * static_cast<double>(top));
-      top *= 4.0F;
+      level.top = bound;
+      set_width(level, 2.0 * static_cast<double>(bound));
+      bound *= 4.0F;
     }
-    insert_all(balls, all);
+    insert_all(balls);
   }
   double slack = 1.25;
   for (int round = 0; round < 8; ++round) {
-    is_fine = true;
+    bool is_fine = true;
+    const std::vector<std::uint32_t> some = sample();
     for (std::size_t number = 0; number < most_levels; ++number) {
       Level& level = levels_[number];
       if (level.regions == 0) continue;
-      const double width = wanted_width(number, 0.5 * static_cast<double>(median_));
+      const double width = wanted_width(number, 0.5 * static_cast<double>(median_), some);
       if (width < slack * level.width && width * slack > level.width) continue;
       set_width(level, width);
       is_fine = false;
     }
     if (is_fine) return;
-    insert_all(balls, all);
+    insert_all(balls);
     slack = 1.08;
   }
 }
 
-void RegionCells::insert_all(Balls& balls, const std::vector<Entry>& all) {
-  // While cells were too narrow there may have been many blocks.
-  blocks_ = std::vector<RegionBlock>(std::bit_ceil(std::max<std::size_t>(all.size() / 4, 64)));
-  mask_ = static_cast<std::uint32_t>(blocks_.size() - 1);
-  regions_ = 0;
+/// Inserts all regions anew.
+void RegionCells::insert_all(Balls& balls) {
+  struct Entry {
+    std::uint32_t ball;
+    float reach;
+  };
+  std::vector<Entry> all;
+  all.reserve(regions_);
   for (Level& level : levels_) {
     level.regions = 0;
     level.largest_reach = 0.0F;
+    set_width(level, level.width);
   }
+  for (const RegionBlock& block : blocks_)
+    for (std::uint32_t lane = 0; lane < block.count; ++lane) {
+      all.push_back({block.balls[lane], block.reach[lane]});
+      Level& level = levels_[level_of(block.reach[lane])];
+      ++level.regions;
+      const auto cell = cell_of(level, block.x[lane], block.y[lane], block.z[lane]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        Range& filled = level.axes[axis].filled;
+        filled = {std::min(filled.first, cell[axis]), std::max(filled.last, cell[axis])};
+      }
+    }
+  choose_chains();
+  for (Level& level : levels_) level.regions = 0;
+  regions_ = 0;
   for (const Entry& entry : all) insert(balls, entry.ball, entry.reach);
+}
+
+/// Makes empty chains. Each of the cells of a level that are filled, and of those around, gets its own, unless
+/// there are too many of them.
+void RegionCells::choose_chains() {
+  built_for_ = std::max<std::size_t>(regions_, 64);
+  const std::size_t most = std::bit_ceil(built_for_) / 2;
+  std::size_t taken = 0;
+  for (Level& level : levels_) {
+    const double cells = level.regions > 0 ? reserve_cells(level) : infinity;
+    level.shares = !(cells <= static_cast<double>(most - taken));
+    if (level.shares) {
+      level.axes[0].stride = 1;
+      level.axes[1].stride = 0x9E3779B1U;
+      level.axes[2].stride = 0x85EBCA77U;
+      level.origin = 0x27D4EB2FU * static_cast<std::uint32_t>(&level - levels_.data());
+      continue;
+    }
+    level.origin = static_cast<std::uint32_t>(taken);
+    for (const Axis& axis : level.axes)
+      level.origin -= static_cast<std::uint32_t>(axis.reserved.first) * axis.stride;
+    taken += static_cast<std::size_t>(cells);
+  }
+  blocks_ = std::vector<RegionBlock>(std::bit_ceil(std::max({taken, built_for_ / 8, std::size_t{64}})));
+  mask_ = static_cast<std::uint32_t>(blocks_.size() - 1);
+}
+
+/// Chooses the cells of a level that are to have chains of their own, and strides. Returns their number.
+double RegionCells::reserve_cells(Level& level) const {
+  double cells = 1.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Axis& a = level.axes[axis];
+    const std::int64_t around = a.count > 0 || static_cast<int>(axis) >= dimensions_ ? 0 : 1;
+    a.reserved = {a.filled.first - around, a.filled.last + around};
+    a.stride = static_cast<std::uint32_t>(std::min(cells, 0x1p31));
+    cells *= a.reserved.count();
+  }
+  return cells;
 }
 
 void RegionCells::search(const Ball& ball, float reach, RegionSearch& search) const {
   const RegionQuery query{ball.centre[0], ball.centre[1], ball.centre[2], reach};
   search.count = 0;
-  bool crosses = false;
-  for (std::size_t level = 0; level < most_levels; ++level)
-    if (levels_[level].regions > 0) crosses = list_cells(level, query, search) || crosses;
-  list_blocks(search);
-  search.found.resize(search.count * lanes);
-  search.found.resize(regions_within_reach(blocks_.data(), search.places.data(), search.count, query,
-                                           crosses ? float_periods_ : FloatPeriods(), search.found.data()));
+  bool crosses = false, shares = false, takes_all = false;
+  for (const Level& level : levels_) {
+    if (level.regions == 0) continue;
+    const std::array<Range, 3> near = cells_near(level, query);
+    double cells = 1.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double count = near[axis].count();
+      cells *= std::max(count, 0.0);
+      if (const std::int64_t around = level.axes[axis].count; around > 0)
+        crosses = crosses || near[axis].first < 0 || near[axis].last >= around ||
+                  count + 1.0 >= static_cast<double>(around);
+    }
+    takes_all = cells > static_cast<double>(blocks_.size());
+    if (takes_all) break;
+    shares = shares || level.shares;
+    search.reserve(static_cast<std::size_t>(cells));
+    list_cells(level, near, query, search);
+  }
+  if (takes_all)
+    list_all(search);
+  else
+    follow_chains(search);
+  search.may_repeat = shares && !takes_all;
+  if (search.room.size() < search.count * lanes) search.room.resize(2 * search.count * lanes);
+  const std::size_t found = regions_within_reach(blocks_.data(), search.places.data(), search.count, query,
+                                                 crosses || takes_all ? float_periods_ : FloatPeriods(),
+                                                 search.room.data());
+  search.found = std::span(search.room).first(found);
 }
 
-/// Appends the blocks of all cells that may have a region within reach. Returns true if some of them may be
-/// within reach in another image only.
-bool RegionCells::list_cells(std::size_t number, const RegionQuery& query, RegionSearch& search) const {
-  const Level& level = levels_[number];
+/// Returns the cells on each axis in which there may be regions within reach. On an axis that repeats, they
+/// may go on into the next boxes.
+std::array<RegionCells::Range, 3> RegionCells::cells_near(const Level& level,
+                                                          const RegionQuery& query) const {
   const double far = static_cast<double>(query.reach) + static_cast<double>(level.largest_reach);
-  const std::array<Range, 3> ranges{range_on(level, 0, query.x, far), range_on(level, 1, query.y, far),
-                                    range_on(level, 2, query.z, far)};
-  const auto& [xs, ys, zs] = ranges;
-  const double cells = xs.count() * ys.count() * zs.count();
-  const bool takes_all = cells > static_cast<double>(blocks_.size());
-  search.cells.resize(
-      std::max(search.cells.size(), search.listed + (takes_all ? 0 : static_cast<std::size_t>(cells))));
-  bool crosses = false;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (const std::int64_t count = level.count[axis]; count > 0)
-      crosses = crosses || ranges[axis].first < 0 || ranges[axis].last >= count ||
-                ranges[axis].count() + 1.0 >= static_cast<double>(count);
-  if (takes_all) {
-    for (std::uint32_t place = 0; place < blocks_.size(); ++place)
-      if (blocks_[place].count > 0 && blocks_[place].cell >> 60 == number) search.add_place(place);
-    return crosses;
-  }
-  for (std::int64_t z = zs.first; z <= zs.last; ++z)
+  const auto on = [far](const Axis& axis, float at) -> Range {
+    const Range range{whole((double{at} - far) * axis.by_width), whole((double{at} + far) * axis.by_width)};
+    if (axis.count == 0)
+      return {std::max(range.first, axis.filled.first), std::min(range.last, axis.filled.last)};
+    return range.last - range.first >= axis.count ? Range{0, axis.count - 1} : range;
+  };
+  return {on(level.axes[0], query.x), on(level.axes[1], query.y), on(level.axes[2], query.z)};
+}
+
+/// Appends the first blocks of cells that may have a region within reach.
+void RegionCells::list_cells(const Level& level, const std::array<Range, 3>& near, const RegionQuery& query,
+                             RegionSearch& search) const {
+  const auto& [xs, ys, zs] = near;
+  const Axis &on_x = level.axes[0], &on_y = level.axes[1], &on_z = level.axes[2];
+  const double far = static_cast<double>(query.reach) + static_cast<double>(level.largest_reach);
+  // How far the cells of a row are from the centre, at least, with room for rounding.
+  const auto away = [far](const Axis& axis, const Range& range, std::int64_t cell, float at) {
+    if (axis.count > 0 && range.count() >= static_cast<double>(axis.count)) return 0.0;
+    const double lower = static_cast<double>(cell) * axis.width;
+    const double gap = std::max(lower - double{at}, double{at} - (lower + axis.width));
+    return std::max(gap - 0x1p-40 * (std::abs(double{at}) + far + axis.width), 0.0);
+  };
+  std::uint32_t* place = search.places.data() + search.count;
+  for (std::int64_t z = zs.first; z <= zs.last; ++z) {
+    const double away_on_z = away(on_z, zs, z, query.z);
+    const std::uint32_t layer =
+        level.origin + static_cast<std::uint32_t>(wrapped(z, on_z.count)) * on_z.stride;
     for (std::int64_t y = ys.first; y <= ys.last; ++y) {
-      const std::int64_t in_y = wrapped(y, level.count[1]), in_z = wrapped(z, level.count[2]);
-      const std::uint32_t row = row_of(number, in_y, in_z);
-      const std::uint64_t name = name_of(number, 0, in_y, in_z);
+      const double away_on_y = away(on_y, ys, y, query.y);
+      if (away_on_y * away_on_y + away_on_z * away_on_z > far * far) continue;
+      const std::uint32_t row = layer + static_cast<std::uint32_t>(wrapped(y, on_y.count)) * on_y.stride;
       for (std::int64_t x = xs.first; x <= xs.last; ++x) {
-        const std::int64_t in_x = wrapped(x, level.count[0]);
-        const std::uint32_t head = (row + static_cast<std::uint32_t>(in_x)) & mask_;
-        const char* const block = reinterpret_cast<const char*>(&blocks_[head]);
+        const std::uint32_t chain = (row + static_cast<std::uint32_t>(wrapped(x, on_x.count))) & mask_;
+        const char* const block = reinterpret_cast<const char*>(&blocks_[chain]);
         prefetch_line(block + 128);
         prefetch_line(block);
         prefetch_line(block + 64);
-        search.cells[search.listed++] = {name | static_cast<std::uint64_t>(in_x & ((1 << 20) - 1)), head};
+        *place++ = chain;
       }
     }
-  return crosses;
+  }
+  search.count = static_cast<std::size_t>(place - search.places.data());
 }
 
-void RegionCells::list_blocks(RegionSearch& search) const {
-  for (std::size_t k = 0; k < search.listed; ++k)
-    for (std::uint32_t place = search.cells[k].head; place != none; place = blocks_[place].next)
-      if (blocks_[place].cell == search.cells[k].name && blocks_[place].count > 0) search.add_place(place);
-  search.listed = 0;
+/// Lists all blocks that have regions.
+void RegionCells::list_all(RegionSearch& search) const {
+  search.count = 0;
+  search.reserve(blocks_.size());
+  for (std::uint32_t place = 0; place < blocks_.size(); ++place)
+    if (blocks_[place].count > 0) search.places[search.count++] = place;
+}
+
+/// Appends the further blocks of all chains of which the first ones are listed.
+void RegionCells::follow_chains(RegionSearch& search) const {
+  for (std::size_t k = 0; k < search.count; ++k) {
+    const std::uint32_t next = blocks_[search.places[k]].next;
+    if (next == none) continue;
+    search.reserve(1);
+    search.places[search.count++] = next;
+  }
 }
 
 }  // namespace kinesphere::core

@@ -1,10 +1,11 @@
 // RegionCells finds the safe regions within reach of a safe region.
 //
 // A region's `reach` is its radius with that of its ball and the tolerance: two balls are neighbours if the
-// centres of their regions are no farther apart than the sum of their reaches. Regions of similar reach,
-// within a factor of four, form a level, which divides space into cells of one width. A cell is a chain of
-// blocks of eight regions. The first blocks of all cells are in one hash table, in which cells that follow
-// each other on x are neighbours.
+// centres of their regions are no farther apart than the sum of their reaches. Regions of similar reach form
+// a level, which divides space into cells of one width. The regions of a cell are in one of the chains of
+// blocks, eight to a block. The chains of cells that follow each other on x do so, too. If there are chains
+// enough for all cells of a level, each has its own; otherwise strides are such that the cells of a search
+// seldom share one. Regions of other cells in a chain cost time, and may be found twice.
 //
 // Lengths are in region units (Core), and coordinates of centres are single-precision numbers, so that they
 // are exact here. The comparison is to the safe side: reaches are raised by more than its rounding. So the
@@ -14,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,18 +27,15 @@ namespace kinesphere::core {
 
 /// The memory of a search, to reuse, and what it has found.
 struct RegionSearch {
-  struct Cell {
-    std::uint64_t name;
-    std::uint32_t head;
-  };
-  std::vector<Cell> cells;            ///< to search, of which there are `listed`
   std::vector<std::uint32_t> places;  ///< of blocks to search, of which there are `count`
-  std::size_t listed = 0, count = 0;
-  std::vector<std::uint32_t> found;  ///< balls, in any order
+  std::size_t count = 0;
+  std::span<std::uint32_t> found;  ///< balls, in any order
+  bool may_repeat = false;         ///< some of them may have been found more than once
+  std::vector<std::uint32_t> room;  ///< for those found
 
-  void add_place(std::uint32_t place) {
-    if (count == places.size()) places.resize(2 * count + 64);
-    places[count++] = place;
+  /// Makes room for so many places more.
+  void reserve(std::size_t more) {
+    if (places.size() < count + more) places.resize(2 * (count + more));
   }
 };
 
@@ -72,43 +71,55 @@ class RegionCells {
   static constexpr std::size_t most_levels = 16;
   static constexpr double wanted_in_cell = 7.0;
 
+  /// Cells on an axis.
+  struct Range {
+    std::int64_t first = std::int64_t{1} << 61, last = -first;
+
+    bool contains(std::int64_t cell) const { return first <= cell && cell <= last; }
+    double count() const { return static_cast<double>(last - first) + 1.0; }
+  };
+  /// An axis of a level.
+  struct Axis {
+    double width = 1.0, by_width = 1.0;  ///< of cells
+    std::int64_t count = 0;              ///< of cells, if the axis repeats
+    Range filled;                        ///< cells in which there have been regions
+    Range reserved;                      ///< cells that have chains of their own
+    std::uint32_t stride = 1;            ///< from the chain of a cell to that of the next one
+  };
   struct Level {
     float top = std::numeric_limits<float>::infinity();  ///< reaches are below it
     std::uint32_t regions = 0;
     float largest_reach = 0.0F;
     double width = 1.0;
-    std::array<double, 3> by_width{1.0, 1.0, 1.0};
-    std::array<std::int64_t, 3> count{};  ///< cells of each axis that repeats
+    std::array<Axis, 3> axes;
+    std::uint32_t origin = 0;  ///< chain of the cell 0, 0, 0
+    bool shares = true;        ///< cells of a search may share a chain
   };
-  struct Range {
-    std::int64_t first, last;
-    double count() const { return static_cast<double>(last - first) + 1.0; }
-  };
-  struct Entry {
-    std::uint32_t ball;
-    float reach;
-  };
-
   std::size_t level_of(float reach) const;
   void set_width(Level& level, double width);
-  std::int64_t cell_on(const Level& level, int axis, double x) const;
-  Range range_on(const Level& level, int axis, double x, double reach) const;
-  std::pair<std::uint64_t, std::uint32_t> cell_of(const Ball& ball, float reach) const;
+  std::array<std::int64_t, 3> cell_of(const Level& level, float x, float y, float z) const;
+  std::uint32_t chain_of(const Level& level, const std::array<std::int64_t, 3>& cell) const;
   void insert(Balls& balls, std::uint32_t ball, float reach);
-  bool list_cells(std::size_t number, const RegionQuery& query, RegionSearch& search) const;
-  void list_blocks(RegionSearch& search) const;
-  std::vector<Entry> entries() const;
-  double crowding(std::size_t level) const;
-  double wanted_width(std::size_t number, double narrowest) const;
-  void insert_all(Balls& balls, const std::vector<Entry>& all);
+  std::array<Range, 3> cells_near(const Level& level, const RegionQuery& query) const;
+  void list_cells(const Level& level, const std::array<Range, 3>& near, const RegionQuery& query,
+                  RegionSearch& search) const;
+  void list_all(RegionSearch& search) const;
+  void follow_chains(RegionSearch& search) const;
+  std::vector<std::uint32_t> sample() const;
+  double crowding(std::size_t number, const std::vector<std::uint32_t>& some) const;
+  double wanted_width(std::size_t number, double narrowest, const std::vector<std::uint32_t>& some) const;
+  void insert_all(Balls& balls);
+  void choose_chains();
+  double reserve_cells(Level& level) const;
 
   Vec3 period_;
   FloatPeriods float_periods_;
   int dimensions_;
   std::array<Level, most_levels> levels_;
-  std::vector<RegionBlock> blocks_;  ///< the hash table, then further blocks
-  std::uint32_t mask_;               ///< length of the hash table, less 1
+  std::vector<RegionBlock> blocks_;  ///< the first ones of all chains, then further ones
+  std::uint32_t mask_;               ///< number of chains, less 1
   std::size_t regions_ = 0, entered_ = 0;
+  std::size_t built_for_ = 0;  ///< regions when chains were chosen
   float median_ = 0.0F;  ///< reach, when levels were chosen
 };
 

@@ -98,6 +98,7 @@ double Core::next_radius(std::uint32_t number) {
 
 /// Returns how many neighbours may be in touch with the ball now.
 double Core::near_now(std::uint32_t number) const {
+  if (!balls_[number].is(Ball::crowded)) return 0.0;
   const auto neighbours = lists_.at(balls_[number].list);
   int near = 0;
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes)
@@ -131,13 +132,11 @@ void Core::place_region(std::uint32_t number, double radius) {
   for (int axis = 0; axis < 3; ++axis)
     ball.centre[axis] = static_cast<float>((centre[axis] - origin_[axis]) / unit_);
   ball.walls = 0;
-  if (!walls_ || !ball.is(Ball::meets_walls)) return;
+  if (!ball.is(Ball::meets_walls)) return;
   const double extent = double{reach(ball)} * unit_;
-  for (const Wall wall : kinesphere::walls) {
-    if (!kinesphere::stands(*walls_, wall)) continue;
-    const HalfSpace inside = half_space(*walls_, wall);
-    if (dot(inside.normal, region_centre(ball)) - inside.offset < extent) ball.walls |= wall_bit(wall);
-  }
+  const Vec3 middle = region_centre(ball);
+  for (const auto& [wall, inside] : walls_)
+    if (dot(inside.normal, middle) - inside.offset < extent) ball.walls |= wall_bit(wall);
 }
 
 /// Gives the ball another safe region, which has no part in the lists of neighbours yet.
@@ -157,7 +156,8 @@ void Core::find_neighbours(std::uint32_t number, Host& host) {
   else
     update_lists(number, host);
   ++host.work_counters().searches;
-  host.work_counters().candidates += search_.found.size();
+  if (!balls_[number].is(Ball::passive))
+    host.work_counters().candidates += lists_.at(balls_[number].list).size();
 }
 
 /// Puts a passive ball into the lists of those that were found, which look for it then.
@@ -165,42 +165,32 @@ void Core::join_lists(std::uint32_t number, Host& host) {
   for (const std::uint32_t other : search_.found) {
     if (balls_[other].is(Ball::passive) || !host.may_meet(number, other)) continue;
     // One that arrives with it may have found it already.
-    const auto list = lists_.at(balls_[other].list);
-    if (!std::binary_search(list.begin(), list.end(), number)) lists_.insert(balls_[other].list, number);
+    if (!lists_.contains(balls_[other].list, number)) lists_.add_to(balls_[other].list, number);
     settling_.push_back(other);
   }
 }
 
 /// Makes those that were found the neighbours of a ball.
 void Core::update_lists(std::uint32_t number, Host& host) {
-  std::vector<std::uint32_t>& found = search_.found;
-  std::sort(found.begin(), found.end());
-  const auto former = lists_.at(balls_[number].list);
-  gone_.clear();
-  new_.clear();
-  auto next = former.begin();
   std::size_t count = 0;
-  for (const std::uint32_t other : found) {
-    if (other == number || !host.may_meet(number, other)) continue;
-    found[count++] = other;
-    while (next != former.end() && *next < other) gone_.push_back(*next++);
-    if (next != former.end() && *next == other)
-      ++next;
-    else
-      new_.push_back(other);
+  for (const std::uint32_t other : search_.found) {
+    search_.found[count] = other;
+    count += static_cast<std::size_t>(other != number && host.may_meet(number, other));
   }
-  found.resize(count);
-  gone_.insert(gone_.end(), next, former.end());
+  find_changes(lists_.at(balls_[number].list), search_.found.first(count), gone_, new_);
   for (const auto* const others : {&gone_, &new_})
     for (const std::uint32_t other : *others) prefetch_line(&balls_[other].due);
   for (const auto* const others : {&gone_, &new_})
     for (const std::uint32_t other : *others)
       if (!balls_[other].is(Ball::passive)) prefetch_line(lists_.address(balls_[other].list));
-  for (const std::uint32_t other : gone_)
+  for (const std::uint32_t other : gone_) {
+    lists_.erase(balls_[number].list, other);
     if (!balls_[other].is(Ball::passive)) forget(other, number);
-  for (const std::uint32_t other : new_)
-    if (!balls_[other].is(Ball::passive)) lists_.insert(balls_[other].list, number);
-  lists_.assign(balls_[number].list, found);
+  }
+  for (const std::uint32_t other : new_) {
+    lists_.add_to(balls_[number].list, other);
+    if (!balls_[other].is(Ball::passive)) lists_.add_to(balls_[other].list, number);
+  }
 }
 
 /// The ball no longer has this neighbour. If it is due about it, it looks for others then.
@@ -215,9 +205,7 @@ void Core::forget_neighbours(std::uint32_t number) {
   if (ball.is(Ball::passive)) {
     cells_.search(ball, cells_.reach_of(ball.slot), search_);
     for (const std::uint32_t other : search_.found) {
-      const auto list =
-          balls_[other].list == none ? std::span<const std::uint32_t>() : lists_.at(balls_[other].list);
-      if (std::binary_search(list.begin(), list.end(), number)) forget(other, number);
+      if (balls_[other].list != none && lists_.contains(balls_[other].list, number)) forget(other, number);
     }
     return;
   }
@@ -238,7 +226,12 @@ std::vector<std::uint32_t> Core::find(const Vec3& centre, double radius) const {
   at.region = static_cast<float>((radius + resolved) / unit_);
   RegionSearch search;
   cells_.search(at, reach(at), search);
-  return std::move(search.found);
+  std::vector<std::uint32_t> found(search.found.begin(), search.found.end());
+  if (search.may_repeat) {
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+  }
+  return found;
 }
 
 std::vector<std::pair<Box, std::size_t>> Core::cells() const {

@@ -52,12 +52,13 @@ TEST(NeighbourLists, HoldWhatWasInserted) {
         expected[k].insert(n);
       lists.assign(handles[k], std::vector<std::uint32_t>(expected[k].begin(), expected[k].end()));
     } else if (expected[k].insert(number).second) {
-      lists.insert(handles[k], number);
+      lists.add_to(handles[k], number);
     } else {
       expected[k].erase(number);
       lists.erase(handles[k], number);
     }
-    const auto list = lists.at(handles[k]);
+    std::vector<std::uint32_t> list(lists.at(handles[k]).begin(), lists.at(handles[k]).end());
+    std::sort(list.begin(), list.end());
     ASSERT_TRUE(std::equal(list.begin(), list.end(), expected[k].begin(), expected[k].end()))
         << "step " << step;
   }
@@ -159,9 +160,10 @@ TEST(RegionCells, FindAllWithinReach) {
       place(number);
       if (step % 100 == 0) cells.rebuild(balls);
       cells.search(balls[number], core::RegionCells::raised(reaches[number]), search);
-      std::vector<std::uint32_t>& found = search.found;
+      std::vector<std::uint32_t> found(search.found.begin(), search.found.end());
       std::sort(found.begin(), found.end());
-      ASSERT_TRUE(std::adjacent_find(found.begin(), found.end()) == found.end()) << "step " << step;
+      ASSERT_TRUE(search.may_repeat || std::adjacent_find(found.begin(), found.end()) == found.end())
+          << "step " << step;
       for (std::uint32_t other = 0; other < count; ++other) {
         double square = 0.0;
         for (int axis = 0; axis < 3; ++axis) {
