@@ -70,6 +70,7 @@ double Core::radius_among_others(std::uint32_t number) {
     Ball at = balls_[number];
     at.region = static_cast<float>(radius / unit_);
     cells_.search(at, reach(at), search_);
+    search_.drop_repeats();
     if (search_.found.size() > few_neighbours) break;
   }
   return std::max(std::min(radius, first_radius_), 0.5 * balls_[number].radius);

@@ -19,6 +19,7 @@ void insert_sorted(std::vector<std::uint32_t>& list, std::uint32_t number) {
 std::uint32_t NeighbourLists::take(std::uint32_t room) {
   std::uint32_t list;
   if (free_[room].empty()) {
+    if (numbers_.empty()) numbers_.resize(spare);
     list = static_cast<std::uint32_t>(numbers_.size() - spare);
     numbers_.resize(numbers_.size() + (least_room << room));
   } else {

@@ -49,7 +49,7 @@ class NeighbourLists {
   std::uint32_t capacity(std::uint32_t list) const { return (least_room << numbers_[list + 1]) - header; }
   void grow(std::uint32_t& list);
 
-  std::vector<std::uint32_t> numbers_ = std::vector<std::uint32_t>(spare);
+  std::vector<std::uint32_t> numbers_;  ///< with `spare` ones at the end, if any
   std::array<std::vector<std::uint32_t>, 28> free_;  ///< runs to reuse, by room
 };
 

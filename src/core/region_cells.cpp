@@ -162,13 +162,13 @@ std::vector<std::pair<Box, std::size_t>> RegionCells::filled() const {
   return all;
 }
 
-/// Returns the slots of some regions: of all in some 32 blocks, evenly spread.
+/// Returns the slots of some regions, if there are any: of those in some 32 blocks, evenly spread.
 std::vector<std::uint32_t> RegionCells::sample() const {
   std::vector<std::uint32_t> some;
-  const std::size_t step = std::max<std::size_t>(blocks_.size() / 32, 1);
-  for (std::size_t place = 0; place < blocks_.size(); place += step)
-    for (std::uint32_t lane = 0; lane < blocks_[place].count; ++lane)
-      some.push_back(static_cast<std::uint32_t>(place) * lanes + lane);
+  for (std::size_t step = blocks_.size() / 32; step > 0 && some.empty(); step /= 2)
+    for (std::size_t place = 0; place < blocks_.size(); place += step)
+      for (std::uint32_t lane = 0; lane < blocks_[place].count; ++lane)
+        some.push_back(static_cast<std::uint32_t>(place) * lanes + lane);
   return some;
 }
 

@@ -12,6 +12,7 @@
 // widths of cells influence the cost of a search only, not what it finds.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -33,6 +34,13 @@ struct RegionSearch {
   bool may_repeat = false;         ///< some of them may have been found more than once
   std::vector<std::uint32_t> room;  ///< for those found
 
+  /// Leaves each of those found once.
+  void drop_repeats() {
+    if (!may_repeat) return;
+    std::sort(found.begin(), found.end());
+    found = found.first(static_cast<std::size_t>(std::unique(found.begin(), found.end()) - found.begin()));
+    may_repeat = false;
+  }
   /// Makes room for so many places more.
   void reserve(std::size_t more) {
     if (places.size() < count + more) places.resize(2 * (count + more));

@@ -226,12 +226,8 @@ std::vector<std::uint32_t> Core::find(const Vec3& centre, double radius) const {
   at.region = static_cast<float>((radius + resolved) / unit_);
   RegionSearch search;
   cells_.search(at, reach(at), search);
-  std::vector<std::uint32_t> found(search.found.begin(), search.found.end());
-  if (search.may_repeat) {
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-  }
-  return found;
+  search.drop_repeats();
+  return {search.found.begin(), search.found.end()};
 }
 
 std::vector<std::pair<Box, std::size_t>> Core::cells() const {
