@@ -179,8 +179,8 @@ HWY_INLINE hn::Vec<F> image(F d, hn::Vec<F> way, float period, float inverse) {
 }
 
 template <bool repeats>
-std::size_t within_reach(const RegionBlock* blocks, const std::uint32_t* places, std::size_t count,
-                         const RegionQuery& q, const FloatPeriods& p, std::uint32_t* found) {
+std::size_t within_reach(const RegionBlock* blocks, const BallBlock* balls, const std::uint32_t* places,
+                         std::size_t count, const RegionQuery& q, const FloatPeriods& p, std::uint32_t* found) {
   const F d;
   const hn::Rebind<std::uint32_t, F> numbers;
   const auto shifts = hn::ShiftLeft<2>(hn::Iota(numbers, 0));
@@ -204,18 +204,18 @@ std::size_t within_reach(const RegionBlock* blocks, const std::uint32_t* places,
       hn::StoreMaskBits(numbers, near, bits);
       const auto packed = hn::Shr(hn::Set(numbers, lanes_of_mask[bits[0]]), shifts);
       const auto order = hn::IndicesFromVec(numbers, hn::And(packed, hn::Set(numbers, hn::Lanes(d) - 1)));
-      hn::StoreU(hn::TableLookupLanes(hn::Load(numbers, block.balls + lane), order), numbers, found + end);
+      hn::StoreU(hn::TableLookupLanes(hn::Load(numbers, balls[places[k]].balls + lane), order), numbers, found + end);
       end += static_cast<std::size_t>(std::popcount(bits[0]));
     }
   }
   return end;
 }
 
-std::size_t regions_within_reach(const RegionBlock* blocks, const std::uint32_t* places, std::size_t count,
-                                 const RegionQuery& query, const FloatPeriods& periods,
-                                 std::uint32_t* found) {
-  return periods.any ? within_reach<true>(blocks, places, count, query, periods, found)
-                     : within_reach<false>(blocks, places, count, query, periods, found);
+std::size_t regions_within_reach(const RegionBlock* blocks, const BallBlock* balls,
+                                 const std::uint32_t* places, std::size_t count, const RegionQuery& query,
+                                 const FloatPeriods& periods, std::uint32_t* found) {
+  return periods.any ? within_reach<true>(blocks, balls, places, count, query, periods, found)
+                     : within_reach<false>(blocks, balls, places, count, query, periods, found);
 }
 
 ListMatches compare_lists(const std::uint32_t* list, std::size_t length, const std::uint32_t* present,
@@ -252,10 +252,10 @@ std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::
   return HWY_DYNAMIC_DISPATCH(may_meet)(balls, neighbours, count, query);
 }
 
-std::size_t regions_within_reach(const RegionBlock* blocks, const std::uint32_t* places, std::size_t count,
-                                 const RegionQuery& query, const FloatPeriods& periods,
-                                 std::uint32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(regions_within_reach)(blocks, places, count, query, periods, found);
+std::size_t regions_within_reach(const RegionBlock* blocks, const BallBlock* balls,
+                                 const std::uint32_t* places, std::size_t count, const RegionQuery& query,
+                                 const FloatPeriods& periods, std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(regions_within_reach)(blocks, balls, places, count, query, periods, found);
 }
 
 ListMatches compare_lists(const std::uint32_t* list, std::size_t length, const std::uint32_t* present,

@@ -51,18 +51,19 @@ inline constexpr std::size_t most_lanes = 32;
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                        const NearQuery& query);
 
-/// Eight safe regions of a chain of cells.
+/// Eight safe regions: what a search reads of all that it looks at.
 struct alignas(64) RegionBlock {
   static constexpr std::uint32_t lanes = 8;
   float x[lanes], y[lanes], z[lanes];
   float reach[lanes];  ///< NaN where there is no region: nothing is within reach of it
-  std::uint32_t balls[lanes];
-  std::uint32_t next = none;
-  std::uint32_t count = 0;
 
   RegionBlock() {
     for (float& each : reach) each = std::numeric_limits<float>::quiet_NaN();
   }
+};
+/// The balls of eight safe regions.
+struct alignas(32) BallBlock {
+  std::uint32_t balls[RegionBlock::lanes];
 };
 struct RegionQuery {
   float x, y, z, reach;
@@ -73,8 +74,9 @@ struct FloatPeriods {
 };
 /// Writes to `found` the balls of these blocks whose regions come within reach. Returns their number. There
 /// must be room for eight in each block.
-std::size_t regions_within_reach(const RegionBlock* blocks, const std::uint32_t* places, std::size_t count,
-                                 const RegionQuery& query, const FloatPeriods& periods, std::uint32_t* found);
+std::size_t regions_within_reach(const RegionBlock* blocks, const BallBlock* balls,
+                                 const std::uint32_t* places, std::size_t count, const RegionQuery& query,
+                                 const FloatPeriods& periods, std::uint32_t* found);
 
 /// Most numbers in a list that is compared with another.
 inline constexpr std::size_t most_compared = 64;

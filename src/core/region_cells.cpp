@@ -30,7 +30,8 @@ std::int64_t whole(double value) {
 }  // namespace
 
 RegionCells::RegionCells(const Vec3& period, int dimensions)
-    : period_(period), dimensions_(dimensions), blocks_(64), mask_(63) {
+    : period_(period), dimensions_(dimensions), mask_(63) {
+  add_blocks(mask_ + 1);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(period[axis] > 0.0)) continue;
     float_periods_.length[axis] = static_cast<float>(period[axis]);
@@ -87,7 +88,6 @@ void RegionCells::prefetch(const Ball& ball, float reach) const {
   const char* const block = reinterpret_cast<const char*>(&blocks_[chain_of(level, cell)]);
   prefetch_line(block);
   prefetch_line(block + 64);
-  prefetch_line(block + 128);
 }
 
 void RegionCells::insert(Balls& balls, std::uint32_t ball, float reach) {
@@ -104,30 +104,36 @@ void RegionCells::insert(Balls& balls, std::uint32_t ball, float reach) {
     if (!a.reserved.contains(cell[axis])) level.shares = true;
   }
   std::uint32_t place = chain_of(level, cell);
-  while (blocks_[place].count == lanes && blocks_[place].next != none) place = blocks_[place].next;
-  if (blocks_[place].count == lanes) {
+  while (links_[place].count == lanes && links_[place].next != none) place = links_[place].next;
+  if (links_[place].count == lanes) {
     const auto fresh = static_cast<std::uint32_t>(blocks_.size());
-    blocks_.emplace_back();
-    place = blocks_[place].next = fresh;
+    add_blocks(1);
+    place = links_[place].next = fresh;
   }
+  const std::uint32_t lane = links_[place].count++;
   RegionBlock& block = blocks_[place];
-  const std::uint32_t lane = block.count++;
   block.x[lane] = b.centre[0], block.y[lane] = b.centre[1], block.z[lane] = b.centre[2];
   block.reach[lane] = reach;
-  block.balls[lane] = ball;
+  balls_[place].balls[lane] = ball;
   b.slot = place * lanes + lane;
 }
 
+void RegionCells::add_blocks(std::size_t count) {
+  blocks_.resize(blocks_.size() + count);
+  balls_.resize(blocks_.size());
+  links_.resize(blocks_.size());
+}
+
 void RegionCells::leave(Balls& balls, std::uint32_t ball) {
-  const std::uint32_t slot = balls[ball].slot, lane = slot % lanes;
-  RegionBlock& block = blocks_[slot / lanes];
+  const std::uint32_t slot = balls[ball].slot, place = slot / lanes, lane = slot % lanes;
+  RegionBlock& block = blocks_[place];
   --levels_[level_of(block.reach[lane])].regions;
   --regions_;
-  const std::uint32_t last = --block.count;
+  const std::uint32_t last = --links_[place].count, moved = balls_[place].balls[last];
   block.x[lane] = block.x[last], block.y[lane] = block.y[last], block.z[lane] = block.z[last];
   block.reach[lane] = block.reach[last];
-  block.balls[lane] = block.balls[last];
-  balls[block.balls[lane]].slot = slot;
+  balls_[place].balls[lane] = moved;
+  balls[moved].slot = slot;
   balls[ball].slot = none;
   block.reach[last] = std::numeric_limits<float>::quiet_NaN();
 }
@@ -136,16 +142,18 @@ bool RegionCells::are_near(const Ball& a, float reach_of_a, const Ball& b, float
   RegionBlock block;
   block.x[0] = b.centre[0], block.y[0] = b.centre[1], block.z[0] = b.centre[2];
   block.reach[0] = reach_of_b;
+  const BallBlock balls{};
   const std::uint32_t place = 0;
   std::uint32_t found[lanes];
   const RegionQuery query{a.centre[0], a.centre[1], a.centre[2], reach_of_a};
-  return regions_within_reach(&block, &place, 1, query, float_periods_, found) == 1;
+  return regions_within_reach(&block, &balls, &place, 1, query, float_periods_, found) == 1;
 }
 
 std::vector<std::pair<Box, std::size_t>> RegionCells::filled() const {
   std::map<std::pair<std::size_t, std::array<std::int64_t, 3>>, std::size_t> counts;
-  for (const RegionBlock& block : blocks_)
-    for (std::uint32_t lane = 0; lane < block.count; ++lane) {
+  for (std::size_t place = 0; place < blocks_.size(); ++place)
+    for (std::uint32_t lane = 0; lane < links_[place].count; ++lane) {
+      const RegionBlock& block = blocks_[place];
       const std::size_t number = level_of(block.reach[lane]);
       ++counts[{number, cell_of(levels_[number], block.x[lane], block.y[lane], block.z[lane])}];
     }
@@ -167,7 +175,7 @@ std::vector<std::uint32_t> RegionCells::sample() const {
   std::vector<std::uint32_t> some;
   for (std::size_t step = blocks_.size() / 32; step > 0 && some.empty(); step /= 2)
     for (std::size_t place = 0; place < blocks_.size(); place += step)
-      for (std::uint32_t lane = 0; lane < blocks_[place].count; ++lane)
+      for (std::uint32_t lane = 0; lane < links_[place].count; ++lane)
         some.push_back(static_cast<std::uint32_t>(place) * lanes + lane);
   return some;
 }
@@ -183,8 +191,8 @@ double RegionCells::crowding(std::size_t number, const std::vector<std::uint32_t
     if (level_of(reach_of(slot)) != number) continue;
     const auto cell = cell_in(blocks_[slot / lanes], slot % lanes);
     regions += 1.0;
-    for (std::uint32_t place = chain_of(level, cell); place != none; place = blocks_[place].next)
-      for (std::uint32_t lane = 0; lane < blocks_[place].count; ++lane)
+    for (std::uint32_t place = chain_of(level, cell); place != none; place = links_[place].next)
+      for (std::uint32_t lane = 0; lane < links_[place].count; ++lane)
         if (level_of(blocks_[place].reach[lane]) == number && cell_in(blocks_[place], lane) == cell)
           sum += 1.0;
   }
@@ -254,9 +262,10 @@ void RegionCells::insert_all(Balls& balls) {
     level.largest_reach = 0.0F;
     set_width(level, level.width);
   }
-  for (const RegionBlock& block : blocks_)
-    for (std::uint32_t lane = 0; lane < block.count; ++lane) {
-      all.push_back({block.balls[lane], block.reach[lane]});
+  for (std::size_t place = 0; place < blocks_.size(); ++place)
+    for (std::uint32_t lane = 0; lane < links_[place].count; ++lane) {
+      const RegionBlock& block = blocks_[place];
+      all.push_back({balls_[place].balls[lane], block.reach[lane]});
       Level& level = levels_[level_of(block.reach[lane])];
       ++level.regions;
       const auto cell = cell_of(level, block.x[lane], block.y[lane], block.z[lane]);
@@ -292,7 +301,10 @@ void RegionCells::choose_chains() {
       level.origin -= static_cast<std::uint32_t>(axis.reserved.first) * axis.stride;
     taken += static_cast<std::size_t>(cells);
   }
-  blocks_ = std::vector<RegionBlock>(std::bit_ceil(std::max({taken, built_for_ / 8, std::size_t{64}})));
+  blocks_.clear();
+  balls_.clear();
+  links_.clear();
+  add_blocks(std::bit_ceil(std::max({taken, built_for_ / 8, std::size_t{64}})));
   mask_ = static_cast<std::uint32_t>(blocks_.size() - 1);
 }
 
@@ -336,9 +348,9 @@ void RegionCells::search(const Ball& ball, float reach, RegionSearch& search) co
     follow_chains(search);
   search.may_repeat = shares && !takes_all;
   if (search.room.size() < search.count * lanes) search.room.resize(2 * search.count * lanes);
-  const std::size_t found = regions_within_reach(blocks_.data(), search.places.data(), search.count, query,
-                                                 crosses || takes_all ? float_periods_ : FloatPeriods(),
-                                                 search.room.data());
+  const std::size_t found = regions_within_reach(
+      blocks_.data(), balls_.data(), search.places.data(), search.count, query,
+      crosses || takes_all ? float_periods_ : FloatPeriods(), search.room.data());
   search.found = std::span(search.room).first(found);
 }
 
@@ -381,7 +393,6 @@ void RegionCells::list_cells(const Level& level, const std::array<Range, 3>& nea
       for (std::int64_t x = xs.first; x <= xs.last; ++x) {
         const std::uint32_t chain = (row + static_cast<std::uint32_t>(wrapped(x, on_x.count))) & mask_;
         const char* const block = reinterpret_cast<const char*>(&blocks_[chain]);
-        prefetch_line(block + 128);
         prefetch_line(block);
         prefetch_line(block + 64);
         *place++ = chain;
@@ -396,13 +407,13 @@ void RegionCells::list_all(RegionSearch& search) const {
   search.count = 0;
   search.reserve(blocks_.size());
   for (std::uint32_t place = 0; place < blocks_.size(); ++place)
-    if (blocks_[place].count > 0) search.places[search.count++] = place;
+    if (links_[place].count > 0) search.places[search.count++] = place;
 }
 
 /// Appends the further blocks of all chains of which the first ones are listed.
 void RegionCells::follow_chains(RegionSearch& search) const {
   for (std::size_t k = 0; k < search.count; ++k) {
-    const std::uint32_t next = blocks_[search.places[k]].next;
+    const std::uint32_t next = links_[search.places[k]].next;
     if (next == none) continue;
     search.reserve(1);
     search.places[search.count++] = next;

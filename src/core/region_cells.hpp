@@ -72,13 +72,20 @@ class RegionCells {
   double median_reach() const { return double{median_}; }
   /// Returns the cells that are not empty (region units), each with the number of regions in it.
   std::vector<std::pair<Box, std::size_t>> filled() const;
-  std::size_t bytes() const { return blocks_.capacity() * sizeof(RegionBlock); }
+  std::size_t bytes() const {
+    return blocks_.capacity() * sizeof(RegionBlock) + balls_.capacity() * sizeof(BallBlock) +
+           links_.capacity() * sizeof(Link);
+  }
 
  private:
   static constexpr std::uint32_t lanes = RegionBlock::lanes;
   static constexpr std::size_t most_levels = 16;
   static constexpr double wanted_in_cell = 7.0;
 
+  struct Link {
+    std::uint32_t next = none;  ///< block of the same chain
+    std::uint32_t count = 0;    ///< regions in this one
+  };
   /// Cells on an axis.
   struct Range {
     std::int64_t first = std::int64_t{1} << 61, last = -first;
@@ -108,6 +115,7 @@ class RegionCells {
   std::array<std::int64_t, 3> cell_of(const Level& level, float x, float y, float z) const;
   std::uint32_t chain_of(const Level& level, const std::array<std::int64_t, 3>& cell) const;
   void insert(Balls& balls, std::uint32_t ball, float reach);
+  void add_blocks(std::size_t count);
   std::array<Range, 3> cells_near(const Level& level, const RegionQuery& query) const;
   void list_cells(const Level& level, const std::array<Range, 3>& near, const RegionQuery& query,
                   RegionSearch& search) const;
@@ -124,7 +132,10 @@ class RegionCells {
   FloatPeriods float_periods_;
   int dimensions_;
   std::array<Level, most_levels> levels_;
-  std::vector<RegionBlock> blocks_;  ///< the first ones of all chains, then further ones
+  // Blocks: the first ones of all chains, then further ones.
+  std::vector<RegionBlock> blocks_;
+  std::vector<BallBlock> balls_;
+  std::vector<Link> links_;
   std::uint32_t mask_;               ///< number of chains, less 1
   std::size_t regions_ = 0, entered_ = 0;
   std::size_t built_for_ = 0;  ///< regions when chains were chosen
