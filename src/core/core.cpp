@@ -84,7 +84,6 @@ void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
     // It may be elsewhere. Others find it by its safe region.
     if (balls_[number].is(Ball::at_wall) || balls_[number].own > balls_.time()) continue;
     move_region(number, host);
-    compute_own_later(number, host);
   }
   for (const std::uint32_t number : settling_) schedule(number, host);
   if (balls_.size() <= 2 * queued_for_) return;

@@ -150,7 +150,8 @@ class Core {
   void enter_region(std::uint32_t number, double radius, Host& host);
   void find_neighbours(std::uint32_t number, Host& host);
   void join_lists(std::uint32_t number, Host& host);
-  void update_lists(std::uint32_t number, Host& host);
+  void compare_neighbours(std::uint32_t number, Host& host);
+  void update_lists(std::uint32_t number);
   void forget(std::uint32_t number, std::uint32_t neighbour);
   void forget_neighbours(std::uint32_t number);
   double next_radius(std::uint32_t number);

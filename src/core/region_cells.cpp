@@ -321,36 +321,34 @@ double RegionCells::reserve_cells(Level& level) const {
   return cells;
 }
 
-void RegionCells::search(const Ball& ball, float reach, RegionSearch& search) const {
-  const RegionQuery query{ball.centre[0], ball.centre[1], ball.centre[2], reach};
+void RegionCells::start_search(const Ball& ball, float reach, RegionSearch& search) const {
+  search.query = {ball.centre[0], ball.centre[1], ball.centre[2], reach};
   search.count = 0;
-  bool crosses = false, shares = false, takes_all = false;
+  search.crosses = search.may_repeat = false;
   for (const Level& level : levels_) {
     if (level.regions == 0) continue;
-    const std::array<Range, 3> near = cells_near(level, query);
+    const std::array<Range, 3> near = cells_near(level, search.query);
     double cells = 1.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double count = near[axis].count();
       cells *= std::max(count, 0.0);
       if (const std::int64_t around = level.axes[axis].count; around > 0)
-        crosses = crosses || near[axis].first < 0 || near[axis].last >= around ||
-                  count + 1.0 >= static_cast<double>(around);
+        search.crosses = search.crosses || near[axis].first < 0 || near[axis].last >= around ||
+                         count + 1.0 >= static_cast<double>(around);
     }
-    takes_all = cells > static_cast<double>(blocks_.size());
-    if (takes_all) break;
-    shares = shares || level.shares;
+    if (cells > static_cast<double>(blocks_.size())) return list_all(search);
+    search.may_repeat = search.may_repeat || level.shares;
     search.reserve(static_cast<std::size_t>(cells));
-    list_cells(level, near, query, search);
+    list_cells(level, near, search);
   }
-  if (takes_all)
-    list_all(search);
-  else
-    follow_chains(search);
-  search.may_repeat = shares && !takes_all;
+  follow_chains(search);
+}
+
+void RegionCells::finish_search(RegionSearch& search) const {
   if (search.room.size() < search.count * lanes) search.room.resize(2 * search.count * lanes);
   const std::size_t found = regions_within_reach(
-      blocks_.data(), balls_.data(), search.places.data(), search.count, query,
-      crosses || takes_all ? float_periods_ : FloatPeriods(), search.room.data());
+      blocks_.data(), balls_.data(), search.places.data(), search.count, search.query,
+      search.crosses ? float_periods_ : FloatPeriods(), search.room.data());
   search.found = std::span(search.room).first(found);
 }
 
@@ -369,8 +367,9 @@ std::array<RegionCells::Range, 3> RegionCells::cells_near(const Level& level,
 }
 
 /// Appends the first blocks of cells that may have a region within reach.
-void RegionCells::list_cells(const Level& level, const std::array<Range, 3>& near, const RegionQuery& query,
+void RegionCells::list_cells(const Level& level, const std::array<Range, 3>& near,
                              RegionSearch& search) const {
+  const RegionQuery& query = search.query;
   const auto& [xs, ys, zs] = near;
   const Axis &on_x = level.axes[0], &on_y = level.axes[1], &on_z = level.axes[2];
   const double far = static_cast<double>(query.reach) + static_cast<double>(level.largest_reach);
@@ -405,6 +404,8 @@ void RegionCells::list_cells(const Level& level, const std::array<Range, 3>& nea
 /// Lists all blocks that have regions.
 void RegionCells::list_all(RegionSearch& search) const {
   search.count = 0;
+  search.crosses = true;
+  search.may_repeat = false;
   search.reserve(blocks_.size());
   for (std::uint32_t place = 0; place < blocks_.size(); ++place)
     if (links_[place].count > 0) search.places[search.count++] = place;

@@ -28,6 +28,8 @@ namespace kinesphere::core {
 
 /// The memory of a search, to reuse, and what it has found.
 struct RegionSearch {
+  RegionQuery query;
+  bool crosses = false;               ///< some may be within reach in another image only
   std::vector<std::uint32_t> places;  ///< of blocks to search, of which there are `count`
   std::size_t count = 0;
   std::span<std::uint32_t> found;  ///< balls, in any order
@@ -62,7 +64,14 @@ class RegionCells {
   /// Returns the reach with which the region in this slot was entered.
   float reach_of(std::uint32_t slot) const { return blocks_[slot / lanes].reach[slot % lanes]; }
   /// Finds all balls whose regions come within reach of that of `ball`.
-  void search(const Ball& ball, float reach, RegionSearch& search) const;
+  void search(const Ball& ball, float reach, RegionSearch& search) const {
+    start_search(ball, reach, search);
+    finish_search(search);
+  }
+  /// The same in two steps. The first one fetches what the second one reads; nothing may enter or leave in
+  /// between.
+  void start_search(const Ball& ball, float reach, RegionSearch& search) const;
+  void finish_search(RegionSearch& search) const;
   /// Returns true if a search finds the one by the other. The reaches are those of the two.
   bool are_near(const Ball& a, float reach_of_a, const Ball& b, float reach_of_b) const;
   /// Chooses levels and the widths of cells anew, for the regions that there are. All slots change. Cost:
@@ -117,8 +126,7 @@ class RegionCells {
   void insert(Balls& balls, std::uint32_t ball, float reach);
   void add_blocks(std::size_t count);
   std::array<Range, 3> cells_near(const Level& level, const RegionQuery& query) const;
-  void list_cells(const Level& level, const std::array<Range, 3>& near, const RegionQuery& query,
-                  RegionSearch& search) const;
+  void list_cells(const Level& level, const std::array<Range, 3>& near, RegionSearch& search) const;
   void list_all(RegionSearch& search) const;
   void follow_chains(RegionSearch& search) const;
   std::vector<std::uint32_t> sample() const;

@@ -65,17 +65,26 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
     if (is_wide || is_far)
       if (auto refreshed = host.refresh(number); !refreshed) return refreshed;
     move_region(number, host);
+  } else {
+    compute_own_later(number, host);
   }
-  compute_own_later(number, host);
   schedule(number, host);
   return {};
 }
 
-/// Gives the ball another safe region, and neighbours.
+/// Gives the ball another safe region, neighbours, and an own time. Memory is what takes the time: each step
+/// fetches what a later one needs.
 void Core::move_region(std::uint32_t number, Host& host) {
   ++host.work_counters().starts;
-  enter_region(number, next_radius(number), host);
-  find_neighbours(number, host);
+  place_region(number, next_radius(number));
+  const Ball& ball = balls_[number];
+  if (balls_.periods().any) host.note_image(number, region_centre(ball));
+  cells_.start_search(ball, reach(ball), search_);
+  compute_own_later(number, host);
+  compare_neighbours(number, host);
+  cells_.leave(balls_, number);
+  cells_.enter(balls_, number, reach(ball));
+  update_lists(number);
 }
 
 /// Returns the radius of the next safe region (length). A wider one lasts longer, but has more neighbours,
@@ -150,18 +159,20 @@ void Core::enter_region(std::uint32_t number, double radius, Host& host) {
 
 /// Makes those within reach the neighbours of the ball, and it theirs; others are no longer.
 void Core::find_neighbours(std::uint32_t number, Host& host) {
-  cells_.search(balls_[number], cells_.reach_of(balls_[number].slot), search_);
-  if (balls_[number].is(Ball::passive))
+  const Ball& ball = balls_[number];
+  cells_.start_search(ball, cells_.reach_of(ball.slot), search_);
+  if (ball.is(Ball::passive)) {
     join_lists(number, host);
-  else
-    update_lists(number, host);
-  ++host.work_counters().searches;
-  if (!balls_[number].is(Ball::passive))
-    host.work_counters().candidates += lists_.at(balls_[number].list).size();
+  } else {
+    compare_neighbours(number, host);
+    update_lists(number);
+  }
 }
 
 /// Puts a passive ball into the lists of those that were found, which look for it then.
 void Core::join_lists(std::uint32_t number, Host& host) {
+  cells_.finish_search(search_);
+  ++host.work_counters().searches;
   for (const std::uint32_t other : search_.found) {
     if (balls_[other].is(Ball::passive) || !host.may_meet(number, other)) continue;
     // One that arrives with it may have found it already.
@@ -170,16 +181,24 @@ void Core::join_lists(std::uint32_t number, Host& host) {
   }
 }
 
-/// Makes those that were found the neighbours of a ball.
-void Core::update_lists(std::uint32_t number, Host& host) {
+/// Finds out who is not in reach of the ball any more, and who has come within reach.
+void Core::compare_neighbours(std::uint32_t number, Host& host) {
+  cells_.finish_search(search_);
   std::size_t count = 0;
   for (const std::uint32_t other : search_.found) {
     search_.found[count] = other;
     count += static_cast<std::size_t>(other != number && host.may_meet(number, other));
   }
   find_changes(lists_.at(balls_[number].list), search_.found.first(count), gone_, new_);
+  for (const std::uint32_t other : new_) prefetch_line(&balls_[other]);
   for (const auto* const others : {&gone_, &new_})
     for (const std::uint32_t other : *others) prefetch_line(&balls_[other].due);
+  ++host.work_counters().searches;
+  host.work_counters().candidates += lists_.at(balls_[number].list).size() + new_.size() - gone_.size();
+}
+
+/// Makes those who have come within reach the neighbours of a ball, and it theirs; those who left, no longer.
+void Core::update_lists(std::uint32_t number) {
   for (const auto* const others : {&gone_, &new_})
     for (const std::uint32_t other : *others)
       if (!balls_[other].is(Ball::passive)) prefetch_line(lists_.address(balls_[other].list));

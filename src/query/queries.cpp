@@ -6,6 +6,7 @@
 
 #include "bodies/validation.hpp"
 #include "number/infinity.hpp"
+#include "number/roots.hpp"
 #include "query/shape_queries.hpp"
 
 namespace kinesphere {
@@ -201,10 +202,15 @@ void World::Engine::Queries::add_distances(const std::vector<std::uint32_t>& num
 /// are certainly within that distance. All bodies not found are outside the cube.
 void World::Engine::Queries::add_around(const Vec3& point, std::size_t count,
                                         std::vector<NearestHit>& all) const {
+  const BodyTable& table = engine_.bodies().table();
   const double farthest = 8.0 * coordinate_limit(engine_.definition());
-  for (double reach = finest_length(); reach <= farthest; reach *= 2.0) {
+  // A body has about one other within the size of the smallest ones, in open space.
+  double reach = finest_length() * cube_root(static_cast<double>(count));
+  for (; reach <= farthest; reach *= 2.0) {
     std::vector<std::uint32_t> numbers = engine_.bodies_in(box_around(point, point, reach));
-    const bool is_everyone = numbers.size() == engine_.bodies().table().present_count();
+    // All are counted only where a part of them has been found.
+    const bool is_everyone =
+        8 * numbers.size() >= table.numbers() && numbers.size() == table.present_count();
     restrict(numbers);
     all.clear();
     add_distances(numbers, point, all);
@@ -222,7 +228,7 @@ void World::Engine::Queries::add_around(const Vec3& point, std::size_t count,
 
 void World::Engine::Queries::nearest(const Vec3& point, std::size_t count,
                                      std::vector<NearestHit>& all) const {
-  count = std::min(count, engine_.bodies().table().present_count());
+  count = std::min<std::size_t>(count, engine_.bodies().table().numbers());
   if (count == 0) return;
   add_around(point, count, all);
   count = std::min(count, all.size());

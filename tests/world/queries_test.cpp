@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ctime>
 #include <functional>
 #include <set>
 
@@ -309,6 +310,28 @@ TEST(WrongQueries, AreRefused) {
                  "sphere_cast");
   EXPECT_EQ(p.world.counters().probes, probes);
 }
+
+/// Returns the least time of several hundred searches for the nearest bodies, on a lattice with so many bodies on
+/// an edge (processor time, s).
+double time_of_nearest(int edge) {
+  World world = World::create({.contact_tolerance = 1e-3}).value();
+  std::vector<BodyDefinition> bodies;
+  for (int k = 0; k < edge * edge * edge; ++k)
+    bodies.push_back({.radius = 0.5,
+                      .position = {2.5 * (k % edge), 2.5 * (k / edge % edge), 2.5 * (k / edge / edge)}});
+  EXPECT_TRUE(world.add_all(bodies));
+  double least = infinity;
+  for (int turn = 0; turn < 5; ++turn) {
+    const std::clock_t start = std::clock();
+    for (std::size_t k = 0; k < 300; ++k)
+      EXPECT_GE(world.queries().nearest(bodies[k * 37 % bodies.size()].position, 4).value().size(), 4u);
+    least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  return least;
+}
+
+/// A search for the nearest bodies costs about the same among 1,000 as among 64,000.
+TEST(QueriesOfTheNearest, LookAroundOnly) { EXPECT_LT(time_of_nearest(40), 10.0 * time_of_nearest(10)); }
 
 }  // namespace
 }  // namespace kinesphere::queries_test
