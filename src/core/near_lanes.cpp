@@ -180,7 +180,8 @@ HWY_INLINE hn::Vec<F> image(F d, hn::Vec<F> way, float period, float inverse) {
 
 template <bool repeats>
 std::size_t within_reach(const RegionBlock* blocks, const BallBlock* balls, const std::uint32_t* places,
-                         std::size_t count, const RegionQuery& q, const FloatPeriods& p, std::uint32_t* found) {
+                         std::size_t count, const RegionQuery& q, const FloatPeriods& p,
+                         std::uint32_t* found) {
   const F d;
   const hn::Rebind<std::uint32_t, F> numbers;
   const auto shifts = hn::ShiftLeft<2>(hn::Iota(numbers, 0));
@@ -204,7 +205,8 @@ std::size_t within_reach(const RegionBlock* blocks, const BallBlock* balls, cons
       hn::StoreMaskBits(numbers, near, bits);
       const auto packed = hn::Shr(hn::Set(numbers, lanes_of_mask[bits[0]]), shifts);
       const auto order = hn::IndicesFromVec(numbers, hn::And(packed, hn::Set(numbers, hn::Lanes(d) - 1)));
-      hn::StoreU(hn::TableLookupLanes(hn::Load(numbers, balls[places[k]].balls + lane), order), numbers, found + end);
+      hn::StoreU(hn::TableLookupLanes(hn::Load(numbers, balls[places[k]].balls + lane), order), numbers,
+                 found + end);
       end += static_cast<std::size_t>(std::popcount(bits[0]));
     }
   }
@@ -221,7 +223,9 @@ std::size_t regions_within_reach(const RegionBlock* blocks, const BallBlock* bal
 ListMatches compare_lists(const std::uint32_t* list, std::size_t length, const std::uint32_t* present,
                           std::size_t count) {
   const hn::CappedTag<std::uint32_t, most_list_lanes> d;
-  const auto first = [](std::size_t bits) { return bits < 64 ? (std::uint64_t{1} << bits) - 1 : ~std::uint64_t{0}; };
+  const auto first = [](std::size_t bits) {
+    return bits < 64 ? (std::uint64_t{1} << bits) - 1 : ~std::uint64_t{0};
+  };
   std::uint64_t of_list = first(length), of_present = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const auto number = hn::Set(d, present[k]);

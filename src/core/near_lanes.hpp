@@ -86,7 +86,8 @@ inline constexpr std::size_t most_list_lanes = 8;
 struct ListMatches {
   std::uint64_t unmatched_of_list, unmatched_of_present;
 };
-/// Compares two lists of at most `most_compared` numbers. Behind `list` there are `most_list_lanes` numbers to read, of any value.
+/// Compares two lists of at most `most_compared` numbers. Behind `list` there are `most_list_lanes` numbers
+/// to read, of any value.
 ListMatches compare_lists(const std::uint32_t* list, std::size_t length, const std::uint32_t* present,
                           std::size_t count);
 

@@ -49,13 +49,12 @@ class NeighbourLists {
   std::uint32_t capacity(std::uint32_t list) const { return (least_room << numbers_[list + 1]) - header; }
   void grow(std::uint32_t& list);
 
-  std::vector<std::uint32_t> numbers_;  ///< with `spare` ones at the end, if any
+  std::vector<std::uint32_t> numbers_;               ///< with `spare` ones at the end, if any
   std::array<std::vector<std::uint32_t>, 28> free_;  ///< runs to reuse, by room
 };
 
-/// Sets `gone` to the numbers of a list that are not present any more, and `fresh` to those present that are not in
-/// it, in ascending order. Numbers of
-/// `present` may be repeated.
+/// Sets `gone` to the numbers of a list that are not present any more, and `fresh` to those present that are
+/// not in it, in ascending order. Numbers of `present` may be repeated.
 void find_changes(std::span<const std::uint32_t> list, std::span<const std::uint32_t> present,
                   std::vector<std::uint32_t>& gone, std::vector<std::uint32_t>& fresh);
 

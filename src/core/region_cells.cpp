@@ -219,8 +219,9 @@ void RegionCells::rebuild(Balls& balls) {
   const float median = reaches[reaches.size() / 2];
   // The first level has nearly all regions, but none that are much larger than most.
   const float top = std::min(1.05F * reaches[reaches.size() - 1 - reaches.size() / 32], 2.0F * median);
-  const bool is_suited = median < 1.25F * median_ && median > 0.8F * median_ && top < 1.15F * levels_[0].top &&
-                         top > 0.75F * levels_[0].top && regions_ <= 2 * built_for_;
+  const bool is_suited = median < 1.25F * median_ && median > 0.8F * median_ &&
+                         top < 1.15F * levels_[0].top && top > 0.75F * levels_[0].top &&
+                         regions_ <= 2 * built_for_;
   if (!is_suited) {
     median_ = median;
     float bound = top;
@@ -280,8 +281,8 @@ void RegionCells::insert_all(Balls& balls) {
   for (const Entry& entry : all) insert(balls, entry.ball, entry.reach);
 }
 
-/// Makes empty chains. Each of the cells of a level that are filled, and of those around, gets its own, unless
-/// there are too many of them.
+/// Makes empty chains. Each of the cells of a level that are filled, and of those around, gets its own,
+/// unless there are too many of them.
 void RegionCells::choose_chains() {
   built_for_ = std::max<std::size_t>(regions_, 64);
   const std::size_t most = std::bit_ceil(built_for_) / 2;
@@ -336,6 +337,7 @@ void RegionCells::start_search(const Ball& ball, float reach, RegionSearch& sear
         search.crosses = search.crosses || near[axis].first < 0 || near[axis].last >= around ||
                          count + 1.0 >= static_cast<double>(around);
     }
+    if (!(cells > 0.0)) continue;
     if (cells > static_cast<double>(blocks_.size())) return list_all(search);
     search.may_repeat = search.may_repeat || level.shares;
     search.reserve(static_cast<std::size_t>(cells));
@@ -346,9 +348,9 @@ void RegionCells::start_search(const Ball& ball, float reach, RegionSearch& sear
 
 void RegionCells::finish_search(RegionSearch& search) const {
   if (search.room.size() < search.count * lanes) search.room.resize(2 * search.count * lanes);
-  const std::size_t found = regions_within_reach(
-      blocks_.data(), balls_.data(), search.places.data(), search.count, search.query,
-      search.crosses ? float_periods_ : FloatPeriods(), search.room.data());
+  const std::size_t found =
+      regions_within_reach(blocks_.data(), balls_.data(), search.places.data(), search.count, search.query,
+                           search.crosses ? float_periods_ : FloatPeriods(), search.room.data());
   search.found = std::span(search.room).first(found);
 }
 

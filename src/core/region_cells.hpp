@@ -32,8 +32,8 @@ struct RegionSearch {
   bool crosses = false;               ///< some may be within reach in another image only
   std::vector<std::uint32_t> places;  ///< of blocks to search, of which there are `count`
   std::size_t count = 0;
-  std::span<std::uint32_t> found;  ///< balls, in any order
-  bool may_repeat = false;         ///< some of them may have been found more than once
+  std::span<std::uint32_t> found;   ///< balls, in any order
+  bool may_repeat = false;          ///< some of them may have been found more than once
   std::vector<std::uint32_t> room;  ///< for those found
 
   /// Leaves each of those found once.
@@ -144,10 +144,10 @@ class RegionCells {
   std::vector<RegionBlock> blocks_;
   std::vector<BallBlock> balls_;
   std::vector<Link> links_;
-  std::uint32_t mask_;               ///< number of chains, less 1
+  std::uint32_t mask_;  ///< number of chains, less 1
   std::size_t regions_ = 0, entered_ = 0;
   std::size_t built_for_ = 0;  ///< regions when chains were chosen
-  float median_ = 0.0F;  ///< reach, when levels were chosen
+  float median_ = 0.0F;        ///< reach, when levels were chosen
 };
 
 }  // namespace kinesphere::core

@@ -209,8 +209,7 @@ void World::Engine::Queries::add_around(const Vec3& point, std::size_t count,
   for (; reach <= farthest; reach *= 2.0) {
     std::vector<std::uint32_t> numbers = engine_.bodies_in(box_around(point, point, reach));
     // All are counted only where a part of them has been found.
-    const bool is_everyone =
-        8 * numbers.size() >= table.numbers() && numbers.size() == table.present_count();
+    const bool is_everyone = 8 * numbers.size() >= table.numbers() && numbers.size() == table.present_count();
     restrict(numbers);
     all.clear();
     add_distances(numbers, point, all);
