@@ -17,6 +17,7 @@
 #include "number/infinity.hpp"
 #include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
+#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 #include "support/random_contacts.hpp"
 #include "support/scenes_of_each.hpp"
@@ -136,6 +137,7 @@ class RandomMeetings : public testing::TestWithParam<ContactScene> {
   };
 
   RandomMeetings() : p({.contact_tolerance = eps, .contacts = GetParam().mode}), random(GetParam().seed) {
+    if (GetParam().windows) use_windows(p.world);
     for (const Shape& shape : {Shape(HalfSpace{{0, 0.6, 0.8}, -2.0}), Shape(Box{{1, -1, -1}, {1.5, 1, 1}}),
                                Shape(Triangle{{-2, -1, 0.5}, {-1, 1.5, 0}, {-1.5, 0, 1.5}}),
                                Shape(Ball{{0, 1.5, 1.2}, 0.4}), folded({-1, -1, -1}, 1.5)})
@@ -292,12 +294,13 @@ TEST_P(RandomMeetings, AreReportedWhenTheyHappen) {
   EXPECT_GT(begins, with_static + 5u);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , RandomMeetings,
-    testing::ValuesIn(scenes_of_each<ContactScene>({ContactScene{ContactEvents::begin_and_end, 0.0, 1},
-                                                    ContactScene{ContactEvents::begin_and_end, 0.02, 2},
-                                                    ContactScene{ContactEvents::impacts, 0.0, 3},
-                                                    ContactScene{ContactEvents::impacts, 0.01, 4}})));
+INSTANTIATE_TEST_SUITE_P(, RandomMeetings,
+                         testing::ValuesIn(scenes_of_each<ContactScene>(
+                             {ContactScene{ContactEvents::begin_and_end, 0.0, 1},
+                              ContactScene{ContactEvents::begin_and_end, 0.02, 2},
+                              ContactScene{ContactEvents::impacts, 0.0, 3},
+                              ContactScene{ContactEvents::impacts, 0.01, 4},
+                              ContactScene{ContactEvents::begin_and_end, 0.02, 5, true}})));
 
 // What events say.
 

@@ -15,6 +15,7 @@
 #include "kinesphere/response.hpp"
 #include "number/infinity.hpp"
 #include "support/expect_error.hpp"
+#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 #include "support/random_contacts.hpp"
 #include "support/scenes_of_each.hpp"
@@ -29,6 +30,7 @@ constexpr double eps = 1e-5;
 class RandomMovingShapes : public testing::TestWithParam<ContactScene> {
  protected:
   RandomMovingShapes() : p({.contact_tolerance = eps, .contacts = GetParam().mode}), random(GetParam().seed) {
+    if (GetParam().windows) use_windows(p.world);
     for (int k = 0; k < 6; ++k) come();
     for (int k = 0; k < 8; ++k) balls.push_back(p.add(any_body()));
   }
@@ -198,12 +200,13 @@ TEST_P(RandomMovingShapes, MeetWhatTheyTouch) {
   EXPECT_LE(counters.pair_checks, 2 * counters.probes);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , RandomMovingShapes,
-    testing::ValuesIn(scenes_of_each<ContactScene>({ContactScene{ContactEvents::begin_and_end, 0.0, 1},
-                                                    ContactScene{ContactEvents::begin_and_end, 0.5, 2},
-                                                    ContactScene{ContactEvents::impacts, 0.0, 3},
-                                                    ContactScene{ContactEvents::impacts, 0.01, 4}})));
+INSTANTIATE_TEST_SUITE_P(, RandomMovingShapes,
+                         testing::ValuesIn(scenes_of_each<ContactScene>(
+                             {ContactScene{ContactEvents::begin_and_end, 0.0, 1},
+                              ContactScene{ContactEvents::begin_and_end, 0.5, 2},
+                              ContactScene{ContactEvents::impacts, 0.0, 3},
+                              ContactScene{ContactEvents::impacts, 0.01, 4},
+                              ContactScene{ContactEvents::begin_and_end, 0.5, 5, true}})));
 
 constexpr Box plate{{-1, -1, 0}, {1, 1, 0.5}};
 
