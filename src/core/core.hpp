@@ -120,8 +120,8 @@ class Core {
   std::vector<std::pair<Box, std::size_t>> cells() const;
   /// Returns the median reach of safe regions (length), as it was when cells were last chosen.
   double median_reach() const { return cells_.median_reach() * unit_; }
-  /// Returns the median time for which balls that move stay in their safe regions from now on; infinity if
-  /// none moves. Cost: O(n).
+  /// Returns about the median time for which balls that move stay in their safe regions from now on; infinity
+  /// if none moves. Cost: O(1), or O(n) where few move.
   double median_stay() const;
 
   /// What a check may expect of two balls. Of a ball with itself: `nothing` while it waits for settle(), and

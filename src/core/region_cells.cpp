@@ -29,9 +29,8 @@ std::int64_t whole(double value) {
 
 }  // namespace
 
-RegionCells::RegionCells(const Vec3& period, int dimensions)
-    : period_(period), dimensions_(dimensions), mask_(63) {
-  add_blocks(mask_ + 1);
+RegionCells::RegionCells(const Vec3& period, int dimensions) : period_(period), dimensions_(dimensions) {
+  add_blocks(chains_);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(period[axis] > 0.0)) continue;
     float_periods_.length[axis] = static_cast<float>(period[axis]);
@@ -73,12 +72,12 @@ std::uint32_t RegionCells::chain_of(const Level& level, const std::array<std::in
   std::uint32_t chain = level.origin;
   for (std::size_t axis = 0; axis < 3; ++axis)
     chain += static_cast<std::uint32_t>(cell[axis]) * level.axes[axis].stride;
-  return chain & mask_;
+  return within_table(chain);
 }
 
 void RegionCells::enter(Balls& balls, std::uint32_t ball, float reach) {
   insert(balls, ball, reach);
-  const bool is_crowded = regions_ > 16 * (std::size_t{mask_} + 1);
+  const bool is_crowded = regions_ > 16 * std::size_t{chains_};
   if (++entered_ > 2 * regions_ + 64 || is_crowded) rebuild(balls);
 }
 
@@ -119,9 +118,15 @@ void RegionCells::insert(Balls& balls, std::uint32_t ball, float reach) {
 }
 
 void RegionCells::add_blocks(std::size_t count) {
-  blocks_.resize(blocks_.size() + count);
-  balls_.resize(blocks_.size());
-  links_.resize(blocks_.size());
+  const std::size_t size = blocks_.size() + count;
+  const auto extend = [=](auto& all) {
+    // Hardly more than there are: they are a good part of the memory of a world.
+    if (size > all.capacity()) all.reserve(size + size / 16);
+    all.resize(size);
+  };
+  extend(blocks_);
+  extend(balls_);
+  extend(links_);
 }
 
 void RegionCells::leave(Balls& balls, std::uint32_t ball) {
@@ -305,8 +310,9 @@ void RegionCells::choose_chains() {
   blocks_.clear();
   balls_.clear();
   links_.clear();
-  add_blocks(std::bit_ceil(std::max({taken, built_for_ / 8, std::size_t{64}})));
-  mask_ = static_cast<std::uint32_t>(blocks_.size() - 1);
+  chains_ = static_cast<std::uint32_t>(std::max({taken, built_for_ / 8, std::size_t{64}}));
+  mask_ = std::bit_ceil(chains_) - 1;
+  add_blocks(chains_);
 }
 
 /// Chooses the cells of a level that are to have chains of their own, and strides. Returns their number.
@@ -392,7 +398,7 @@ void RegionCells::list_cells(const Level& level, const std::array<Range, 3>& nea
       if (away_on_y * away_on_y + away_on_z * away_on_z > far * far) continue;
       const std::uint32_t row = layer + static_cast<std::uint32_t>(wrapped(y, on_y.count)) * on_y.stride;
       for (std::int64_t x = xs.first; x <= xs.last; ++x) {
-        const std::uint32_t chain = (row + static_cast<std::uint32_t>(wrapped(x, on_x.count))) & mask_;
+        const std::uint32_t chain = within_table(row + static_cast<std::uint32_t>(wrapped(x, on_x.count)));
         const char* const block = reinterpret_cast<const char*>(&blocks_[chain]);
         prefetch_line(block);
         prefetch_line(block + 64);

@@ -123,6 +123,10 @@ class RegionCells {
   void set_width(Level& level, double width);
   std::array<std::int64_t, 3> cell_of(const Level& level, float x, float y, float z) const;
   std::uint32_t chain_of(const Level& level, const std::array<std::int64_t, 3>& cell) const;
+  std::uint32_t within_table(std::uint32_t chain) const {
+    chain &= mask_;
+    return chain < chains_ ? chain : chain - chains_;
+  }
   void insert(Balls& balls, std::uint32_t ball, float reach);
   void add_blocks(std::size_t count);
   std::array<Range, 3> cells_near(const Level& level, const RegionQuery& query) const;
@@ -144,7 +148,8 @@ class RegionCells {
   std::vector<RegionBlock> blocks_;
   std::vector<BallBlock> balls_;
   std::vector<Link> links_;
-  std::uint32_t mask_;  ///< number of chains, less 1
+  std::uint32_t chains_ = 64;
+  std::uint32_t mask_ = 63;  ///< the least power of two that is not less, less 1
   std::size_t regions_ = 0, entered_ = 0;
   std::size_t built_for_ = 0;  ///< regions when chains were chosen
   float median_ = 0.0F;        ///< reach, when levels were chosen

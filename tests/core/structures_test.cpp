@@ -64,6 +64,35 @@ TEST(NeighbourLists, HoldWhatWasInserted) {
   }
 }
 
+/// Of a list and those present, who is gone and who is new is told right, whatever the lengths and repeats.
+TEST(NeighbourLists, TellWhoIsGoneAndWhoIsNew) {
+  Random random(seed + 1);
+  NeighbourLists lists;
+  std::uint32_t handle = lists.add();
+  for (int step = 0; step < 5000; ++step) {
+    const std::uint32_t names = step % 2 == 0 ? 30 : 200;
+    const auto any = [&] { return static_cast<std::uint32_t>(random.bits() % names); };
+    const auto length = static_cast<std::size_t>(random.bits() % (step % 2 == 0 ? 20 : 150));
+    std::set<std::uint32_t> former, after;
+    std::vector<std::uint32_t> present;
+    for (std::size_t k = 0; k < length; ++k) former.insert(any());
+    for (std::size_t k = random.bits() % 100; k > 0; --k) present.push_back(any());
+    after.insert(present.begin(), present.end());
+    std::vector<std::uint32_t> list(former.begin(), former.end()), gone, fresh, expected;
+    for (std::size_t k = list.size(); k > 1; --k) std::swap(list[k - 1], list[random.bits() % k]);
+    lists.assign(handle, list);
+    core::find_changes(lists.at(handle), present, gone, fresh);
+    std::sort(gone.begin(), gone.end());
+    std::set_difference(former.begin(), former.end(), after.begin(), after.end(),
+                        std::back_inserter(expected));
+    ASSERT_EQ(gone, expected) << "step " << step;
+    expected.clear();
+    std::set_difference(after.begin(), after.end(), former.begin(), former.end(),
+                        std::back_inserter(expected));
+    ASSERT_EQ(fresh, expected) << "step " << step;
+  }
+}
+
 /// Balls are due in order of time and number, also where many are due at one time, or only far away.
 TEST(DueQueue, GivesBallsInOrder) {
   for (const double spread : {1e-9, 1.0, 1e6}) {
