@@ -89,7 +89,6 @@ class RegionCells {
  private:
   static constexpr std::uint32_t lanes = RegionBlock::lanes;
   static constexpr std::size_t most_levels = 16;
-  static constexpr double wanted_in_cell = 7.0;
 
   struct Link {
     std::uint32_t next = none;  ///< block of the same chain
@@ -119,8 +118,9 @@ class RegionCells {
     std::uint32_t origin = 0;  ///< chain of the cell 0, 0, 0
     bool shares = true;        ///< cells of a search may share a chain
   };
+
+  // region_cells.cpp
   std::size_t level_of(float reach) const;
-  void set_width(Level& level, double width);
   std::array<std::int64_t, 3> cell_of(const Level& level, float x, float y, float z) const;
   std::uint32_t chain_of(const Level& level, const std::array<std::int64_t, 3>& cell) const;
   std::uint32_t within_table(std::uint32_t chain) const {
@@ -133,6 +133,9 @@ class RegionCells {
   void list_cells(const Level& level, const std::array<Range, 3>& near, RegionSearch& search) const;
   void list_all(RegionSearch& search) const;
   void follow_chains(RegionSearch& search) const;
+
+  // cell_sizes.cpp
+  void set_width(Level& level, double width);
   std::vector<std::uint32_t> sample() const;
   double crowding(std::size_t number, const std::vector<std::uint32_t>& some) const;
   double wanted_width(std::size_t number, double narrowest, const std::vector<std::uint32_t>& some) const;

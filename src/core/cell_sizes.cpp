@@ -1,0 +1,186 @@
+// Which levels of reach there are, how wide their cells, and which chains these get.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/region_cells.hpp"
+#include "number/infinity.hpp"
+#include "number/roots.hpp"
+
+namespace kinesphere::core {
+namespace {
+
+/// Widest cells, in reaches of the largest region of their level.
+constexpr double widest = 32.0;
+/// So many regions are to be in the cell of a region, with itself.
+constexpr double wanted_in_cell = 7.0;
+
+}  // namespace
+
+void RegionCells::set_width(Level& level, double width) {
+  level.width = width;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Axis& a = level.axes[axis];
+    const double period = period_[static_cast<int>(axis)];
+    a.count = period > 0.0 ? std::max<std::int64_t>(static_cast<std::int64_t>(period / width), 1) : 0;
+    a.width = period > 0.0 ? period / static_cast<double>(a.count) : width;
+    a.by_width = 1.0 / a.width;
+    a.filled = a.count > 0 ? Range{0, a.count - 1} : Range();
+    a.reserved = Range();
+  }
+}
+
+/// Returns the slots of some regions, if there are any: of those in some 32 blocks, evenly spread.
+std::vector<std::uint32_t> RegionCells::sample() const {
+  std::vector<std::uint32_t> some;
+  for (std::size_t step = blocks_.size() / 32; step > 0 && some.empty(); step /= 2)
+    for (std::size_t place = 0; place < blocks_.size(); place += step)
+      for (std::uint32_t lane = 0; lane < links_[place].count; ++lane)
+        some.push_back(static_cast<std::uint32_t>(place) * lanes + lane);
+  return some;
+}
+
+/// Returns the mean number of regions in the cell of a region; 0 if there is none of this level among these.
+double RegionCells::crowding(std::size_t number, const std::vector<std::uint32_t>& some) const {
+  const Level& level = levels_[number];
+  const auto cell_in = [&](const RegionBlock& block, std::uint32_t lane) {
+    return cell_of(level, block.x[lane], block.y[lane], block.z[lane]);
+  };
+  double sum = 0.0, regions = 0.0;
+  for (const std::uint32_t slot : some) {
+    if (level_of(reach_of(slot)) != number) continue;
+    const auto cell = cell_in(blocks_[slot / lanes], slot % lanes);
+    regions += 1.0;
+    for (std::uint32_t place = chain_of(level, cell); place != none; place = links_[place].next)
+      for (std::uint32_t lane = 0; lane < links_[place].count; ++lane)
+        if (level_of(blocks_[place].reach[lane]) == number && cell_in(blocks_[place], lane) == cell)
+          sum += 1.0;
+  }
+  return regions > 0.0 ? sum / regions : 0.0;
+}
+
+/// Returns the width of cells that suits a level, given the present one. `narrowest`: of all levels.
+double RegionCells::wanted_width(std::size_t number, double narrowest,
+                                 const std::vector<std::uint32_t>& some) const {
+  const Level& level = levels_[number];
+  const double crowd = crowding(number, some);
+  if (!(crowd > 0.0)) return level.width;
+  const double by = std::clamp(wanted_in_cell / crowd, 0x1p-9, 0x1p9);
+  const double width = level.width * (dimensions_ == 2 ? std::sqrt(by) : cube_root(by));
+  return std::clamp(width, narrowest, widest * static_cast<double>(level.largest_reach));
+}
+
+void RegionCells::rebuild(Balls& balls) {
+  entered_ = 0;
+  if (regions_ == 0) return;
+  std::vector<float> reaches;
+  for (const std::uint32_t slot : sample()) reaches.push_back(reach_of(slot));
+  std::sort(reaches.begin(), reaches.end());
+  const float median = reaches[reaches.size() / 2];
+  // The first level has nearly all regions, but none that are much larger than most.
+  const float top = std::min(1.05F * reaches[reaches.size() - 1 - reaches.size() / 32], 2.0F * median);
+  const bool is_suited = median < 1.25F * median_ && median > 0.8F * median_ &&
+                         top < 1.15F * levels_[0].top && top > 0.75F * levels_[0].top &&
+                         regions_ <= 2 * built_for_;
+  if (!is_suited) {
+    median_ = median;
+    float bound = top;
+    for (Level& level : levels_) {
+      level.top = bound;
+      set_width(level, 2.0 * static_cast<double>(bound));
+      bound *= 4.0F;
+    }
+    insert_all(balls);
+  }
+  double slack = 1.25;
+  for (int round = 0; round < 8; ++round) {
+    bool is_fine = true;
+    const std::vector<std::uint32_t> some = sample();
+    for (std::size_t number = 0; number < most_levels; ++number) {
+      Level& level = levels_[number];
+      if (level.regions == 0) continue;
+      const double width = wanted_width(number, 0.5 * static_cast<double>(median_), some);
+      if (width < slack * level.width && width * slack > level.width) continue;
+      set_width(level, width);
+      is_fine = false;
+    }
+    if (is_fine) return;
+    insert_all(balls);
+    slack = 1.08;
+  }
+}
+
+/// Inserts all regions anew.
+void RegionCells::insert_all(Balls& balls) {
+  struct Entry {
+    std::uint32_t ball;
+    float reach;
+  };
+  std::vector<Entry> all;
+  all.reserve(regions_);
+  for (Level& level : levels_) {
+    level.regions = 0;
+    level.largest_reach = 0.0F;
+    set_width(level, level.width);
+  }
+  for (std::size_t place = 0; place < blocks_.size(); ++place)
+    for (std::uint32_t lane = 0; lane < links_[place].count; ++lane) {
+      const RegionBlock& block = blocks_[place];
+      all.push_back({balls_[place].balls[lane], block.reach[lane]});
+      Level& level = levels_[level_of(block.reach[lane])];
+      ++level.regions;
+      const auto cell = cell_of(level, block.x[lane], block.y[lane], block.z[lane]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        Range& filled = level.axes[axis].filled;
+        filled = {std::min(filled.first, cell[axis]), std::max(filled.last, cell[axis])};
+      }
+    }
+  choose_chains();
+  for (Level& level : levels_) level.regions = 0;
+  regions_ = 0;
+  for (const Entry& entry : all) insert(balls, entry.ball, entry.reach);
+}
+
+/// Makes empty chains. Each of the cells of a level that are filled, and of those around, gets its own,
+/// unless there are too many of them.
+void RegionCells::choose_chains() {
+  built_for_ = std::max<std::size_t>(regions_, 64);
+  const std::size_t most = std::bit_ceil(built_for_) / 2;
+  std::size_t taken = 0;
+  for (Level& level : levels_) {
+    const double cells = level.regions > 0 ? reserve_cells(level) : infinity;
+    level.shares = !(cells <= static_cast<double>(most - taken));
+    if (level.shares) {
+      level.axes[0].stride = 1;
+      level.axes[1].stride = 0x9E3779B1U;
+      level.axes[2].stride = 0x85EBCA77U;
+      level.origin = 0x27D4EB2FU * static_cast<std::uint32_t>(&level - levels_.data());
+      continue;
+    }
+    level.origin = static_cast<std::uint32_t>(taken);
+    for (const Axis& axis : level.axes)
+      level.origin -= static_cast<std::uint32_t>(axis.reserved.first) * axis.stride;
+    taken += static_cast<std::size_t>(cells);
+  }
+  blocks_.clear();
+  balls_.clear();
+  links_.clear();
+  chains_ = static_cast<std::uint32_t>(std::max({taken, built_for_ / 8, std::size_t{64}}));
+  mask_ = std::bit_ceil(chains_) - 1;
+  add_blocks(chains_);
+}
+
+/// Chooses the cells of a level that are to have chains of their own, and strides. Returns their number.
+double RegionCells::reserve_cells(Level& level) const {
+  double cells = 1.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Axis& a = level.axes[axis];
+    const std::int64_t around = a.count > 0 || static_cast<int>(axis) >= dimensions_ ? 0 : 1;
+    a.reserved = {a.filled.first - around, a.filled.last + around};
+    a.stride = static_cast<std::uint32_t>(std::min(cells, 0x1p31));
+    cells *= a.reserved.count();
+  }
+  return cells;
+}
+
+}  // namespace kinesphere::core
