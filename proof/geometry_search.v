@@ -32,6 +32,51 @@ Proof.
     apply Rmult_lt_reg_r with (dot V V); lra.
 Qed.
 
+(* The case with radii as they grow. The centres are at least as far apart as their distance along the line on which
+   they are now, which changes at a constant rate; less the radii, it is a concave function of time. So if it is
+   positive now and at the end T, it is positive throughout. Squares are compared, without a root or a division. *)
+Lemma line_of_centres_is_out (X V : vector) (T r0 speed half d : R) :
+  0 <= r0 -> 0 <= speed -> 0 <= half -> r0 * r0 < dot X X -> 0 < dot X X + T * dot X V ->
+  (r0 + (speed + half * T) * T) * (r0 + (speed + half * T) * T) * dot X X < (dot X X + T * dot X V) * (dot X X + T * dot X V) ->
+  0 <= d <= T -> r0 + (speed + half * d) * d < norm (X + d * V).
+Proof.
+  intros P0 Ps Ph H0 L H Hd. set (RT := r0 + (speed + half * T) * T) in *.
+  assert (0 <= RT) by (unfold RT; assert (0 <= half * T) by nra; nra).
+  generalize (norm_square X) (norm_positive X) (norm_more X r0 H0). intros E PN N0. set (N := norm X) in *.
+  rewrite <- E in *. set (p := dot X V) in *.
+  assert (RT * N < N * N + T * p).
+  { apply Rsqr_incrst_0; unfold Rsqr; nra. }
+  assert (N * (N + d * (p / N)) <= N * norm (X + d * V)).
+  { replace (N * (N + d * (p / N))) with (dot X (X + d * V)).
+    - unfold N. apply cauchy_schwarz.
+    - rewrite dot_plus, dot_times, <- E. fold p. field. lra. }
+  assert (N + d * (p / N) <= norm (X + d * V)) by (apply Rmult_le_reg_l with N; lra).
+  assert (RT < N + T * (p / N)).
+  { apply Rmult_lt_reg_l with N; [lra|]. replace (N * (N + T * (p / N))) with (N * N + T * p) by (field; lra). lra. }
+  set (m := p / N) in *.
+  destruct (Req_dec T 0) as [Z|Z]; [assert (d = 0) as -> by lra; lra|].
+  assert (0 < T) by lra.
+  assert (T * (r0 + (speed + half * d) * d) < T * (N + d * m)); [|assert (r0 + (speed + half * d) * d < N + d * m) by (apply Rmult_lt_reg_l with T; lra); lra].
+  assert (T * (N + d * m) - T * (r0 + (speed + half * d) * d) =
+          (T - d) * (N - r0) + d * (N + T * m - RT) + half * (d * (T * (T - d)))) as F by (unfold RT; ring).
+  assert (0 <= half * (d * (T * (T - d)))) by (repeat apply Rmult_le_pos; lra).
+  destruct (Rle_lt_or_eq_dec d T) as [Q|Q]; [lra| |].
+  - assert (0 < (T - d) * (N - r0)) by nra. assert (0 <= d * (N + T * m - RT)) by nra. lra.
+  - assert (0 < d * (N + T * m - RT)) by nra. assert (0 <= (T - d) * (N - r0)) by nra. lra.
+Qed.
+
+(* The relative motion is nearly a straight line: what the difference of the plans turns it by is at most this. *)
+Lemma nearly_straight (a b : bound) (d : R) :
+  norm (start a - start b + d * (speed a - speed b)) - d * d / 2 * norm_one (plan a - plan b) <= norm (C a b d).
+Proof.
+  set (X := (start a - start b)%vector). set (V := (speed a - speed b)%vector). set (G := (plan a - plan b)%vector).
+  replace (C a b d) with ((X + d * V) - (- (d * d / 2)) * G)%vector
+    by (unfold C, c, X, V, G; coordinates; apply (f_equal3 Vector); field).
+  generalize (norm_minus (X + d * V) ((- (d * d / 2)) * G)).
+  rewrite norm_times, Rabs_Ropp, Rabs_pos_eq by nra.
+  generalize (norm_at_most_norm_one G). assert (0 <= d * d / 2) by nra. nra.
+Qed.
+
 (* The quick rejection: `stay_apart`, over the real numbers. Radii count as they are at the end, with a distance, and
    with half of what the difference G of the plans can turn the centres by then. If the straight line then stays out,
    the two bounds stay farther apart than the distance during all of the time T: a pair that is left alone cannot meet
@@ -43,19 +88,30 @@ Theorem quick_rejection_leaves_out_only_what_cannot_meet (a b : bound) (T distan
      (growth_speed a + growth_speed b + / 2 * (growth a + growth b + norm_one (plan a - plan b)) * T) * T) ->
   forall d, 0 <= d <= T -> Rs a b d + distance < norm (C a b d).
 Proof.
-  intros P1 P2 H d Hd. generalize (straight_line_is_out _ _ _ _ d H Hd).
-  set (X := (start a - start b)%vector). set (V := (speed a - speed b)%vector). set (G := (plan a - plan b)%vector).
-  replace (C a b d) with ((X + d * V) - (- (d * d / 2)) * G)%vector
-    by (unfold C, c, X, V, G; coordinates; apply (f_equal3 Vector); field).
-  generalize (norm_minus (X + d * V) ((- (d * d / 2)) * G)).
-  rewrite norm_times, Rabs_Ropp, Rabs_pos_eq by nra.
-  generalize (norm_at_most_norm_one G) (norm_one_positive G) (norm_positive G). unfold Rs, rho. fold G.
-  intros N1 N2 N3. set (K := norm_one G) in *. intros L1 L2.
+  intros P1 P2 H d Hd. generalize (straight_line_is_out _ _ _ _ d H Hd) (nearly_straight a b d).
+  generalize (norm_at_most_norm_one (plan a - plan b)) (norm_positive (plan a - plan b)). unfold Rs, rho.
+  set (K := norm_one (plan a - plan b)). intros N1 N2 L1 L2.
   assert ((growth_speed a + growth_speed b) * d <= (growth_speed a + growth_speed b) * T) by (apply Rmult_le_compat_l; lra).
   assert (d * d <= T * T) by nra.
   assert ((growth a + growth b) * (d * d) <= (growth a + growth b) * (T * T)) by (apply Rmult_le_compat_l; lra).
-  assert (d * d / 2 * norm G <= T * T / 2 * K) by (apply Rmult_le_compat; nra).
+  assert (d * d / 2 * K <= T * T / 2 * K) by (apply Rmult_le_compat_r; lra).
   nra.
+Qed.
+
+(* The same in the case with radii as they grow. *)
+Theorem quick_rejection_along_the_line_of_centres (a b : bound) (T distance : R) :
+  let X := (start a - start b)%vector in let V := (speed a - speed b)%vector in
+  let r0 := size a + size b + distance in
+  let rT := r0 + (growth_speed a + growth_speed b + / 2 * (growth a + growth b + norm_one (plan a - plan b)) * T) * T in
+  0 <= r0 -> 0 <= growth_speed a + growth_speed b -> 0 <= growth a + growth b ->
+  r0 * r0 < dot X X -> 0 < dot X X + T * dot X V -> rT * rT * dot X X < (dot X X + T * dot X V) * (dot X X + T * dot X V) ->
+  forall d, 0 <= d <= T -> Rs a b d + distance < norm (C a b d).
+Proof.
+  intros X V r0 rT P0 P1 P2 H0 L H d Hd.
+  generalize (norm_at_most_norm_one (plan a - plan b)) (norm_positive (plan a - plan b)) (nearly_straight a b d).
+  fold X V. set (K := norm_one (plan a - plan b)) in *. intros N1 N2 N3.
+  assert (0 <= / 2 * (growth a + growth b + K)) as Ph by lra.
+  generalize (line_of_centres_is_out X V T r0 _ _ d P0 P1 Ph H0 L H Hd). unfold Rs, rho, r0. nra.
 Qed.
 
 (* Where centres go straight on, F(d) = |X + V d|^2 - R(d)^2. *)

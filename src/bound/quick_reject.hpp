@@ -60,10 +60,11 @@ class QuickReject {
         speed_(a.speed + b.speed),
         growth_(a.growth + b.growth) {}
 
-  /// True if no two points of the bodies come within `margin` during `duration`. On straight lines, the
-  /// minimum of |X + V d| is |X|, its value at the end, or |X x V| / |V|; the test needs neither root nor
-  /// division. The radii are taken at the end, plus 1/2 |A| d^2 for the curvature of the relative path.
-  /// Conservative: false means unknown.
+  /// True if no two points of the bodies come within `margin` during `duration`. Conservative: false means
+  /// unknown. Neither root nor division is needed, and 1/2 |A| d^2 is added to the radii for the curvature of
+  /// the relative path. With radii as at the end: on straight lines, the minimum of |X + V d| is |X|, its
+  /// value at the end, or |X x V| / |V|. With radii as they grow: |X + V d| is at least |X| + d (X V) / |X|,
+  /// and since this less the radii is a concave function, it is positive throughout if it is so at both ends.
   [[gnu::always_inline]] bool stay_apart(double duration, double margin) const {
     // Below this, products of squares underflow, and the answer is unknown.
     constexpr double least = 0x1p-400;
@@ -71,9 +72,11 @@ class QuickReject {
         radii_ + margin + (speed_ + 0.5 * (growth_ + norm_one(acceleration_)) * duration) * duration;
     const double limit = radii * radii;
     const double now = norm_squared(offset_);
-    if (!(now > limit && now > least)) return false;
+    if (!(now > (radii_ + margin) * (radii_ + margin) && now > least)) return false;
     const double approach = -dot(offset_, velocity_);
-    if (approach <= 0.0) return true;
+    const double along = now - approach * duration;
+    if (along > 0.0 && along * along > limit * now) return true;
+    if (!(now > limit)) return false;
     const double speed = norm_squared(velocity_);
     if (approach >= speed * duration) return norm_squared(offset_ + velocity_ * duration) > limit;
     return norm_squared(cross(offset_, velocity_)) > limit * speed && speed > least;

@@ -2,6 +2,7 @@
 #include "core/core.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "bodies/body_bounds.hpp"
@@ -172,10 +173,13 @@ void Core::schedule(std::uint32_t number, Host& host) {
   Counters& work = host.work_counters();
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     const auto some = neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes));
-    for (std::uint32_t left = candidates(number, some, ball.second - balls_.time()); left != 0;
+    std::array<double, most_lanes> apart;
+    for (std::uint32_t left = candidates(number, some, ball.second - balls_.time(), apart); left != 0;
          left &= left - 1) {
-      const std::uint32_t other = some[static_cast<std::size_t>(std::countr_zero(left))];
-      const double until = apart_until(number, other, ball.second - balls_.time(), host);
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      const std::uint32_t other = some[lane];
+      double until = rounding::sum_down(balls_.time(), apart[lane]);
+      if (!(until > balls_.time())) until = apart_until(number, other, ball.second - balls_.time(), host);
       ++work.certificates;
       if (until < ball.own) ++work.hot_pairs;
       consider(ball, other, until);
@@ -205,9 +209,10 @@ void Core::consider(Ball& ball, std::uint32_t other, double time) {
   }
 }
 
-/// Returns a bit for each of some neighbours that may be met within this time from now.
+/// Returns a bit for each of some neighbours that may be met within this time from now, and how long each of
+/// these is certainly not met (may_meet() in near_lanes.hpp).
 std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
-                               double duration) const {
+                               double duration, std::span<double, most_lanes> apart) const {
   const Ball& ball = balls_[number];
   if (!balls_.any_drifts()) {
     const NearQuery query{balls_.time(),
@@ -215,12 +220,15 @@ std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32
                           balls_.position(number),
                           ball.velocity,
                           ball.radius + balls_.growth(number) + margin_,
+                          margin_,
+                          tolerance_ - margin_,
                           balls_.growth_speed(number),
                           ball.acceleration_limit,
                           balls_.any_grows(),
                           &balls_.periods()};
-    return may_meet(balls_.all().data(), neighbours.data(), neighbours.size(), query);
+    return may_meet(balls_.all().data(), neighbours.data(), neighbours.size(), query, apart.data());
   }
+  std::fill(apart.begin(), apart.end(), 0.0);
   std::uint32_t found = 0;
   const BoundAt own = balls_.bound_now(number);
   for (std::size_t k = 0; k < neighbours.size(); ++k) {

@@ -138,8 +138,8 @@ class Core {
   void postpone(std::uint32_t number, double time);
   void schedule(std::uint32_t number, Host& host);
   void consider(Ball& ball, std::uint32_t other, double time);
-  std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
-                           double duration) const;
+  std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours, double duration,
+                           std::span<double, most_lanes> apart) const;
   double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon, Host& host);
   void prefetch() const;
 

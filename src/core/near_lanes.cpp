@@ -100,74 +100,159 @@ HWY_INLINE V dot(V a, V b, V c, V e, V f, V g) {
   return hn::Add(hn::Add(hn::Mul(a, e), hn::Mul(b, f)), hn::Mul(c, g));
 }
 
-template <bool grows, bool repeats>
-HWY_INLINE std::uint32_t group(const Ball* balls, const std::uint32_t* n, const NearQuery& q) {
-  const D d;
-  const Neighbours<V> b = load<V>(d, balls, n);
-  const V since = hn::Sub(hn::Set(d, q.now), b.time);
-  V x = hn::Sub(hn::Set(d, q.position.x), hn::Add(b.x, hn::Mul(b.u, since)));
-  V y = hn::Sub(hn::Set(d, q.position.y), hn::Add(b.y, hn::Mul(b.v, since)));
-  V z = hn::Sub(hn::Set(d, q.position.z), hn::Add(b.z, hn::Mul(b.w, since)));
-  if constexpr (repeats) {
-    x = image(d, x, q.periods->length.x, q.periods->inverse.x);
-    y = image(d, y, q.periods->length.y, q.periods->inverse.y);
-    z = image(d, z, q.periods->length.z, q.periods->inverse.z);
-  }
-  const V u = hn::Sub(hn::Set(d, q.velocity.x), b.u);
-  const V v = hn::Sub(hn::Set(d, q.velocity.y), b.v);
-  const V w = hn::Sub(hn::Set(d, q.velocity.z), b.w);
-  const V duration = hn::Set(d, q.duration);
-  V radii = hn::Add(b.radius, hn::Set(d, q.radius));
-  if constexpr (grows) {
-    const V limit = limits<V>(d, balls, n), half = hn::Set(d, 0.5);
-    const V growth = hn::Mul(half, hn::Add(limit, hn::Set(d, q.growth)));
-    const V speed = hn::Add(hn::Mul(limit, since), hn::Set(d, q.speed));
-    radii = hn::Add(radii, hn::Mul(half, hn::Mul(hn::Mul(limit, since), since)));
-    radii = hn::Add(radii, hn::Mul(hn::Add(speed, hn::Mul(growth, duration)), duration));
-  }
-  const V limit = hn::Mul(radii, radii), low = hn::Set(d, least);
-  const V square = dot(x, y, z, x, y, z), approach = hn::Neg(dot(x, y, z, u, v, w)),
-          speed = dot(u, v, w, u, v, w);
-  const auto apart_now = hn::And(hn::Gt(square, limit), hn::Gt(square, low));
-  const auto recede = hn::Le(approach, hn::Zero(d));
-  const V ex = hn::Add(x, hn::Mul(u, duration)), ey = hn::Add(y, hn::Mul(v, duration)),
-          ez = hn::Add(z, hn::Mul(w, duration));
-  const auto ends_before = hn::Ge(approach, hn::Mul(speed, duration));
-  const auto apart_at_end = hn::Gt(dot(ex, ey, ez, ex, ey, ez), limit);
-  const V cx = hn::Sub(hn::Mul(y, w), hn::Mul(z, v)), cy = hn::Sub(hn::Mul(z, u), hn::Mul(x, w)),
-          cz = hn::Sub(hn::Mul(x, v), hn::Mul(y, u));
-  const auto pass_by =
-      hn::And(hn::Gt(dot(cx, cy, cz, cx, cy, cz), hn::Mul(limit, speed)), hn::Gt(speed, low));
-  const auto apart =
-      hn::And(apart_now,
-              hn::Or(recede, hn::Or(hn::And(ends_before, apart_at_end), hn::AndNot(ends_before, pass_by))));
+using M = hn::Mask<D>;
+
+HWY_INLINE std::uint32_t bits_of(D d, M mask) {
   std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, apart, bits);
-  return ~std::uint32_t{bits[0]} & ((1u << hn::Lanes(d)) - 1);
+  hn::StoreMaskBits(d, mask, bits);
+  return bits[0];
+}
+
+/// The motion of a ball relative to those of a group, from the present on: the vector between the centres is
+/// X + V t after a time t, and the sum of the radii, with the margin, start + (rate + growth t) t.
+template <bool grows>
+struct RelativeMotions {
+  V x, y, z, u, v, w, start, rate, growth;
+  V square, approach, speed;  ///< |X|^2, -X V, |V|^2
+  V passing;                  ///< |X x V|^2
+
+  template <bool repeats>
+  HWY_INLINE static RelativeMotions of(D d, const Ball* balls, const std::uint32_t* n, const NearQuery& q) {
+    const Neighbours<V> b = load<V>(d, balls, n);
+    const V since = hn::Sub(hn::Set(d, q.now), b.time);
+    RelativeMotions m;
+    m.x = hn::Sub(hn::Set(d, q.position.x), hn::Add(b.x, hn::Mul(b.u, since)));
+    m.y = hn::Sub(hn::Set(d, q.position.y), hn::Add(b.y, hn::Mul(b.v, since)));
+    m.z = hn::Sub(hn::Set(d, q.position.z), hn::Add(b.z, hn::Mul(b.w, since)));
+    if constexpr (repeats) {
+      m.x = image(d, m.x, q.periods->length.x, q.periods->inverse.x);
+      m.y = image(d, m.y, q.periods->length.y, q.periods->inverse.y);
+      m.z = image(d, m.z, q.periods->length.z, q.periods->inverse.z);
+    }
+    m.u = hn::Sub(hn::Set(d, q.velocity.x), b.u);
+    m.v = hn::Sub(hn::Set(d, q.velocity.y), b.v);
+    m.w = hn::Sub(hn::Set(d, q.velocity.z), b.w);
+    m.start = hn::Add(b.radius, hn::Set(d, q.radius));
+    if constexpr (grows) {
+      const V limit = limits<V>(d, balls, n), half = hn::Set(d, 0.5);
+      m.start = hn::Add(m.start, hn::Mul(half, hn::Mul(hn::Mul(limit, since), since)));
+      m.rate = hn::Add(hn::Mul(limit, since), hn::Set(d, q.speed));
+      m.growth = hn::Mul(half, hn::Add(limit, hn::Set(d, q.growth)));
+    }
+    m.square = dot(m.x, m.y, m.z, m.x, m.y, m.z);
+    m.approach = hn::Neg(dot(m.x, m.y, m.z, m.u, m.v, m.w));
+    m.speed = dot(m.u, m.v, m.w, m.u, m.v, m.w);
+    const V cx = hn::Sub(hn::Mul(m.y, m.w), hn::Mul(m.z, m.v));
+    const V cy = hn::Sub(hn::Mul(m.z, m.u), hn::Mul(m.x, m.w));
+    const V cz = hn::Sub(hn::Mul(m.x, m.v), hn::Mul(m.y, m.u));
+    m.passing = dot(cx, cy, cz, cx, cy, cz);
+    return m;
+  }
+
+  HWY_INLINE V radii(V time) const {
+    if constexpr (grows) return hn::Add(start, hn::Mul(hn::Add(rate, hn::Mul(growth, time)), time));
+    return start;
+  }
+
+  /// Returns which certainly stay apart for this time (QuickReject::stay_apart).
+  HWY_INLINE M stay_apart(D d, V time) const {
+    const V now = hn::Mul(start, start), reach = radii(time), limit = hn::Mul(reach, reach);
+    const V low = hn::Set(d, least), along = hn::Sub(square, hn::Mul(approach, time));
+    const M above =
+        hn::And(hn::Gt(along, hn::Zero(d)), hn::Gt(hn::Mul(along, along), hn::Mul(limit, square)));
+    const V ex = hn::Add(x, hn::Mul(u, time)), ey = hn::Add(y, hn::Mul(v, time)),
+            ez = hn::Add(z, hn::Mul(w, time));
+    const M ends_before = hn::Ge(approach, hn::Mul(speed, time));
+    const M apart_at_end = hn::Gt(dot(ex, ey, ez, ex, ey, ez), limit);
+    const M pass_by = hn::And(hn::Gt(passing, hn::Mul(limit, speed)), hn::Gt(speed, low));
+    const M clear = hn::Or(hn::And(ends_before, apart_at_end), hn::AndNot(ends_before, pass_by));
+    return hn::And(hn::And(hn::Gt(square, now), hn::Gt(square, low)),
+                   hn::Or(above, hn::And(hn::Gt(square, limit), clear)));
+  }
+};
+
+/// When they come within the radii and `more` (length) where the bounds do not grow; anything, where they do
+/// not.
+HWY_INLINE V guess_meeting(D d, const RelativeMotions<false>& m, V more) {
+  const V reach = hn::Add(m.start, more);
+  const V left = hn::Sub(m.square, hn::Mul(reach, reach));
+  const V root = hn::Sub(hn::Mul(m.approach, m.approach), hn::Mul(m.speed, left));
+  return hn::Div(left, hn::Add(m.approach, hn::Sqrt(hn::Max(root, hn::Zero(d)))));
+}
+
+/// The same where they grow, as if the gap fell all the time as it does now, but for what bounds grow.
+HWY_INLINE V guess_early_meeting(D d, const RelativeMotions<true>& m, V more) {
+  const V distance = hn::Sqrt(m.square), gap = hn::Sub(distance, hn::Add(m.start, more));
+  const V nearing = hn::Add(hn::Div(m.approach, distance), m.rate);
+  const V square = hn::Add(hn::Mul(nearing, nearing), hn::Mul(hn::Mul(hn::Set(d, 4.0), m.growth), gap));
+  return hn::Div(hn::Add(gap, gap), hn::Add(nearing, hn::Sqrt(square)));
+}
+
+/// The same by two steps of Newton's method.
+HWY_INLINE V refine(D d, const RelativeMotions<true>& m, V more, V time) {
+  for (int step = 0; step < 2; ++step) {
+    const V reach = hn::Add(m.radii(time), more);
+    const V way = hn::Sub(hn::Mul(m.speed, time), m.approach);
+    const V left = hn::Sub(hn::Add(m.square, hn::Mul(hn::Sub(way, m.approach), time)), hn::Mul(reach, reach));
+    const V faster = hn::Add(m.rate, hn::Mul(hn::Add(m.growth, m.growth), time));
+    const V slope = hn::Sub(way, hn::Mul(reach, faster));
+    time = hn::Sub(time, hn::Div(hn::Mul(hn::Set(d, 0.5), left), slope));
+  }
+  return time;
+}
+
+/// Returns how long those of a group certainly stay apart, 0 where that is unknown: times are guessed, and
+/// then tried.
+template <bool grows>
+HWY_INLINE V stay_apart_for(D d, const RelativeMotions<grows>& pairs, const NearQuery& q) {
+  // With as much again as the margin, what rounding makes of a guess does not matter.
+  const V zero = hn::Zero(d), more = hn::Set(d, q.margin), near = hn::Add(pairs.start, hn::Set(d, q.near));
+  const auto tried = [&](V time) HWY_ATTR {
+    return hn::IfThenElseZero(hn::And(hn::Gt(time, zero), pairs.stay_apart(d, time)), time);
+  };
+  V time;
+  if constexpr (grows) {
+    const V early = guess_early_meeting(d, pairs, more);
+    time = hn::Max(tried(early), tried(refine(d, pairs, more, early)));
+  } else {
+    time = tried(guess_meeting(d, pairs, more));
+  }
+  return hn::IfThenElseZero(hn::Gt(pairs.square, hn::Mul(near, near)), time);
+}
+
+template <bool grows, bool repeats>
+HWY_INLINE std::uint32_t group(const Ball* balls, const std::uint32_t* n, const NearQuery& q, double* apart) {
+  const D d;
+  const auto pairs = RelativeMotions<grows>::template of<repeats>(d, balls, n, q);
+  const M meet = hn::Not(pairs.stay_apart(d, hn::Set(d, q.duration)));
+  const std::uint32_t found = bits_of(d, meet) & ((1u << hn::Lanes(d)) - 1);
+  if (found != 0) hn::StoreU(stay_apart_for<grows>(d, pairs, q), d, apart);
+  return found;
 }
 
 template <bool grows, bool repeats>
 std::uint32_t candidates(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
-                         const NearQuery& query) {
+                         const NearQuery& query, double* apart) {
   const std::size_t lanes = hn::Lanes(D());
   std::uint32_t found = 0;
   std::size_t k = 0;
-  for (; k + lanes <= count; k += lanes) found |= group<grows, repeats>(balls, neighbours + k, query) << k;
+  for (; k + lanes <= count; k += lanes)
+    found |= group<grows, repeats>(balls, neighbours + k, query, apart + k) << k;
   if (k < count) {
     std::uint32_t rest[8];
     for (std::size_t lane = 0; lane < lanes; ++lane) rest[lane] = neighbours[k + lane < count ? k + lane : k];
-    found |= (group<grows, repeats>(balls, rest, query) & ((1u << (count - k)) - 1)) << k;
+    found |= (group<grows, repeats>(balls, rest, query, apart + k) & ((1u << (count - k)) - 1)) << k;
   }
   return found;
 }
 
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
-                       const NearQuery& query) {
+                       const NearQuery& query, double* apart) {
   if (query.periods->any)
-    return query.grows ? candidates<true, true>(balls, neighbours, count, query)
-                       : candidates<false, true>(balls, neighbours, count, query);
-  return query.grows ? candidates<true, false>(balls, neighbours, count, query)
-                     : candidates<false, false>(balls, neighbours, count, query);
+    return query.grows ? candidates<true, true>(balls, neighbours, count, query, apart)
+                       : candidates<false, true>(balls, neighbours, count, query, apart);
+  return query.grows ? candidates<true, false>(balls, neighbours, count, query, apart)
+                     : candidates<false, false>(balls, neighbours, count, query, apart);
 }
 
 using F = hn::CappedTag<float, RegionBlock::lanes>;
@@ -252,8 +337,8 @@ HWY_EXPORT(regions_within_reach);
 HWY_EXPORT(compare_lists);
 
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
-                       const NearQuery& query) {
-  return HWY_DYNAMIC_DISPATCH(may_meet)(balls, neighbours, count, query);
+                       const NearQuery& query, double* apart) {
+  return HWY_DYNAMIC_DISPATCH(may_meet)(balls, neighbours, count, query, apart);
 }
 
 std::size_t regions_within_reach(const RegionBlock* blocks, const BallBlock* balls,

@@ -39,17 +39,21 @@ struct NearQuery {
   double duration;
   Vec3 position, velocity;
   double radius;  ///< with growth and margin
+  double margin;  ///< for rounding (length), which is in `radius`
+  double near;    ///< two whose gap is less than the margin and this (length) are near each other
   double speed;   ///< at which the bound grows
   double growth;  ///< acceleration with which it grows
   bool grows;     ///< any bound grows
   const Periods* periods;
 };
-/// Most neighbours in one call.
+/// Most neighbours in one call, for which `apart` has room.
 inline constexpr std::size_t most_lanes = 32;
 /// Returns a bit for each of `count` neighbours that the ball may meet within the span. Conservative: that of
-/// a neighbour that it certainly does not meet may be set (QuickReject::stay_apart).
+/// a neighbour that it certainly does not meet may be set (QuickReject::stay_apart). Writes to `apart` how
+/// long it certainly does not meet each of these; 0 if that is unknown, or if the two are near each other.
+/// What is written of others means nothing.
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
-                       const NearQuery& query);
+                       const NearQuery& query, double* apart);
 
 /// Eight safe regions: what a search reads of all that it looks at.
 struct alignas(64) RegionBlock {

@@ -1,5 +1,6 @@
 // Safe regions: how large, where, and who their neighbours are.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -110,9 +111,10 @@ double Core::near_now(std::uint32_t number) const {
   if (!balls_[number].is(Ball::crowded)) return 0.0;
   const auto neighbours = lists_.at(balls_[number].list);
   int near = 0;
+  std::array<double, most_lanes> apart;
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes)
     near += std::popcount(
-        candidates(number, neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes)), 0.0));
+        candidates(number, neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes)), 0.0, apart));
   return near;
 }
 
