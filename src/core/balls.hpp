@@ -66,10 +66,14 @@ class Balls {
             .acceleration_limit = ball.acceleration_limit};
   }
   /// The bound from now on.
-  BoundAt bound_now(std::uint32_t number) const {
-    return {position(number),     velocity(number),
-            plan(number),         balls_[number].radius + growth(number),
-            growth_speed(number), balls_[number].acceleration_limit};
+  [[gnu::always_inline]] BoundAt bound_now(std::uint32_t number) const {
+    const Ball& ball = balls_[number];
+    const double since = now_ - ball.time, limit = ball.acceleration_limit;
+    BoundAt bound(ball.position + ball.velocity * since, ball.velocity, Vec3{},
+                  ball.radius + 0.5 * limit * since * since, limit * since, limit);
+    if (!drifts_.empty()) [[unlikely]]
+      add_drift(bound, drifts_[number], since);
+    return bound;
   }
   Vec3 plan(std::uint32_t number) const {
     return drifts_.empty() ? Vec3{} : drifts_[number].planned_acceleration;
@@ -126,6 +130,14 @@ class Balls {
   bool has_valid_drifts() const { return drifts_.empty() || drifts_.size() == balls_.size(); }
 
  private:
+  static void add_drift(BoundAt& bound, const Drift& drift, double since) {
+    bound.centre += drift.planned_acceleration * (0.5 * since * since);
+    bound.velocity += drift.planned_acceleration * since;
+    bound.acceleration = drift.planned_acceleration;
+    bound.radius += drift.growth_speed * since;
+    bound.speed += drift.growth_speed;
+  }
+
   std::vector<Ball> balls_;
   std::vector<Drift> drifts_;  ///< by number; empty as long as no bound has drifted
   Periods periods_;

@@ -121,12 +121,37 @@ Result<void> Core::handle(std::uint32_t number, Host& host) {
   // What the host says of the two holds until the own time of either.
   if (!(balls_[other].own > balls_.time()))
     if (auto handled = handle_own(other, host); !handled) return handled;
-  const Result<double> until = host.recheck(number, other);
+  const Result<double> until = recheck(number, other, host);
   if (!until) return until.error();
   postpone(number, *until);
   // The other one may be due about the same.
   if (balls_[other].about == number && balls_[other].due <= balls_.time()) postpone(other, *until);
   return {};
+}
+
+/// Finds out whether something happens between a ball and a neighbour now. As long as their bounds may be
+/// near each other, the older one reports; both at once if they are exact, since one report would not change
+/// when they may meet. When both reports are of now, the host decides. Returns a time before which nothing
+/// happens between them, as Host::recheck() does.
+Result<double> Core::recheck(std::uint32_t number, std::uint32_t other, Host& host) {
+  const Ball &ball = balls_[number], &partner = balls_[other];
+  const auto is_plain = [](const Ball& each) { return each.is(Ball::plain) && !each.is(Ball::linked); };
+  if (!is_plain(ball) || !is_plain(partner)) return host.recheck(number, other);
+  const double now = balls_.time();
+  const bool are_exact = balls_.is_exact(number) && balls_.is_exact(other);
+  for (;;) {
+    const double until = apart_until(number, other, std::min(ball.own, partner.own) - now);
+    ++host.work_counters().certificates;
+    if (until > now) return until;
+    if (ball.time == now && partner.time == now) return host.recheck(number, other);
+    const bool is_first = ball.time < partner.time;
+    const std::array<std::uint32_t, 2> older{is_first ? number : other, is_first ? other : number};
+    const bool asks_both = are_exact && std::max(ball.time, partner.time) < now;
+    const Result<bool> kept = host.report(std::span(older).first(asks_both ? 2 : 1), Host::Reason::near);
+    if (!kept) return kept.error();
+    if (!*kept) return infinity;
+    if (are_exact) return host.recheck(number, other);
+  }
 }
 
 /// The ball may leave its safe region, or concern a wall.
@@ -158,101 +183,6 @@ void Core::postpone(std::uint32_t number, double time) {
     ball.about = ball.second < ball.own ? number : none;
   }
   queue_.push(balls_.all(), number);
-}
-
-/// Computes when a ball is due: at its own time, or when something may happen between it and a neighbour, if
-/// that is earlier.
-void Core::schedule(std::uint32_t number, Host& host) {
-  Ball& ball = balls_[number];
-  if (ball.is(Ball::passive)) return;
-  if (ball.scans < 255) ++ball.scans;
-  ball.about = none;
-  ball.due = ball.second = ball.own;
-  ball.set(Ball::crowded, false);
-  const auto neighbours = lists_.at(ball.list);
-  Counters& work = host.work_counters();
-  for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
-    const auto some = neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes));
-    std::array<double, most_lanes> apart;
-    for (std::uint32_t left = candidates(number, some, ball.second - balls_.time(), apart); left != 0;
-         left &= left - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-      const std::uint32_t other = some[lane];
-      double until = rounding::sum_down(balls_.time(), apart[lane]);
-      if (!(until > balls_.time())) until = apart_until(number, other, ball.second - balls_.time(), host);
-      ++work.certificates;
-      if (until < ball.own) ++work.hot_pairs;
-      consider(ball, other, until);
-    }
-  }
-  if (ball.is(Ball::linked))
-    for (const std::uint32_t other : host.linked_with(number))
-      consider(ball, other, host.unchanged_until(number, other));
-  queue_.push(balls_.all(), number);
-}
-
-/// Something may happen between a ball and a neighbour at this time. Of two at the same time, the ball is due
-/// about the one with the lower number, in whatever order they are considered.
-void Core::consider(Ball& ball, std::uint32_t other, double time) {
-  if (time == ball.due && ball.about != none && other < ball.about) {
-    ball.second = time;
-    ball.about = other;
-    return;
-  }
-  if (!(time < ball.second)) return;
-  if (time < ball.due) {
-    ball.second = ball.due;
-    ball.due = time;
-    ball.about = other;
-  } else {
-    ball.second = time;
-  }
-}
-
-/// Returns a bit for each of some neighbours that may be met within this time from now, and how long each of
-/// these is certainly not met (may_meet() in near_lanes.hpp).
-std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
-                               double duration, std::span<double, most_lanes> apart) const {
-  const Ball& ball = balls_[number];
-  if (!balls_.any_drifts()) {
-    const NearQuery query{balls_.time(),
-                          duration,
-                          balls_.position(number),
-                          ball.velocity,
-                          ball.radius + balls_.growth(number) + margin_,
-                          margin_,
-                          tolerance_ - margin_,
-                          balls_.growth_speed(number),
-                          ball.acceleration_limit,
-                          balls_.any_grows(),
-                          &balls_.periods()};
-    return may_meet(balls_.all().data(), neighbours.data(), neighbours.size(), query, apart.data());
-  }
-  std::fill(apart.begin(), apart.end(), 0.0);
-  std::uint32_t found = 0;
-  const BoundAt own = balls_.bound_now(number);
-  for (std::size_t k = 0; k < neighbours.size(); ++k) {
-    BoundAt other = balls_.bound_now(neighbours[k]);
-    other.centre = own.centre + balls_.nearest(other.centre - own.centre);
-    if (!QuickReject(own, other).stay_apart(duration, margin_)) found |= 1u << k;
-  }
-  return found;
-}
-
-/// Returns a time before which nothing happens between two neighbours; +infinity if nothing does for
-/// `horizon` from now. Returns the present time if reports have to decide.
-double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon, Host& host) {
-  const BoundAt own = balls_.bound_now(number);
-  BoundAt other = balls_.bound_now(neighbour);
-  if (balls_.periods().any) other.centre = own.centre + balls_.nearest(other.centre - own.centre);
-  const QuickReject pair(own, other);
-  if (pair.stay_apart(horizon, margin_)) return infinity;
-  if (!pair.is_near(tolerance_)) {
-    const double time = rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_));
-    if (time > balls_.time()) return time;
-  }
-  balls_[number].set(Ball::crowded, true);
-  return host.unchanged_until(number, neighbour);
 }
 
 /// Fetches what the balls that are due next need. Some of them may have been removed since they were queued.

@@ -69,8 +69,12 @@ class Core {
   void report(std::uint32_t number, const State& state) { balls_.set_state(number, state); }
   /// The ball has another bound, which may be anywhere. It has to be told as changed.
   void set_bound(std::uint32_t number, const Bound& bound);
-  /// The ball begins or ceases to touch or sense others. It has to be told as changed.
-  void set_linked(std::uint32_t number, bool is_linked) { balls_[number].set(Ball::linked, is_linked); }
+  /// The ball begins or ceases to touch or sense others, or to be one that meets others just where its bound
+  /// does (Ball::plain). It has to be told as changed.
+  void set_kind(std::uint32_t number, bool is_linked, bool is_plain) {
+    balls_[number].set(Ball::linked, is_linked);
+    balls_[number].set(Ball::plain, is_plain);
+  }
   /// Restores the invariants, which hold but for these balls: they have arrived, or move in another way, or
   /// what they are to others has changed. Cost: one scan for each.
   void settle(std::span<const std::uint32_t> changed, Host& host);
@@ -135,13 +139,16 @@ class Core {
   // core.cpp: the loop.
   Result<void> handle(std::uint32_t number, Host& host);
   Result<void> handle_own(std::uint32_t number, Host& host);
+  Result<double> recheck(std::uint32_t number, std::uint32_t other, Host& host);
   void postpone(std::uint32_t number, double time);
+  void prefetch() const;
+
+  // scan.cpp
   void schedule(std::uint32_t number, Host& host);
   void consider(Ball& ball, std::uint32_t other, double time);
   std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours, double duration,
                            std::span<double, most_lanes> apart) const;
-  double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon, Host& host);
-  void prefetch() const;
+  double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const;
 
   // safe_regions.cpp
   Result<void> leave_region(std::uint32_t number, Host& host);

@@ -23,15 +23,20 @@ class Host {
   /// Returns a time before which nothing happens between two neighbours, from what is known of them; now if
   /// reports have to decide.
   virtual double unchanged_until(std::uint32_t a, std::uint32_t b) = 0;
-  /// Finds out whether something happens between two neighbours now, with reports if these are needed.
-  /// Returns a time before which nothing more happens between them; infinity if they are to be told to the
-  /// core as changed. Errors: those of the reports, after which nothing has changed.
+  /// Finds out whether something happens between two neighbours now, with reports if these are needed: those
+  /// of two plain balls that are not linked (Ball::plain) are of now. Returns a time before which nothing
+  /// more happens between them; infinity if they are to be told to the core as changed. Errors: those of the
+  /// reports, after which nothing has changed.
   virtual Result<double> recheck(std::uint32_t a, std::uint32_t b) = 0;
   /// The same of a ball and the walls.
   virtual double walls_unchanged_until(std::uint32_t ball) = 0;
   virtual Result<double> recheck_walls(std::uint32_t ball) = 0;
-  /// Gets a report of the ball, and tells the core (Core::report()).
-  virtual Result<void> refresh(std::uint32_t ball) = 0;
+  /// What a report is for: two that are near each other, or another safe region.
+  enum class Reason { near, region };
+  /// Gets reports of these balls now, and tells the core (Core::report()). Returns false if one of them has
+  /// broken its bound, so that it is to be told to the core as changed. Errors: those of the reports, after
+  /// which nothing has changed.
+  virtual Result<bool> report(std::span<const std::uint32_t> balls, Reason reason) = 0;
   /// The safe region of a ball in periodic space is now around `centre`. Two balls meet in the images in
   /// which the centres of their safe regions are nearest.
   virtual void note_image(std::uint32_t ball, const Vec3& centre) = 0;

@@ -64,7 +64,8 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
     const bool is_wide = balls_.growth(number) > growth_worth_a_report * radius;
     const bool is_far = norm_one(ball.velocity) * (balls_.time() - ball.time) > longest_flight * radius;
     if (is_wide || is_far)
-      if (auto refreshed = host.refresh(number); !refreshed) return refreshed;
+      if (auto reported = host.report(std::span(&number, 1), Host::Reason::region); !reported)
+        return reported.error();
     move_region(number, host);
   } else {
     compute_own_later(number, host);

@@ -40,10 +40,15 @@ void EventProcessor::leave_core() {
   linked_.clear();
 }
 
-/// Tells the core whether the body touches or senses anything.
+/// Tells the core whether the body touches or senses anything, and whether it is a ball like most.
 void EventProcessor::link_in_core(std::uint32_t number) {
-  core().set_linked(number, contacts().walls_of(number) != 0 || !contacts().partners_of(number).empty() ||
-                                !contacts().overlaps_of(number).empty());
+  const Body& body = bodies()[number];
+  const bool is_plain = !body.is_shaped() && !body.is_sleeping() && body.change_number == Body::none &&
+                        sensor_reach(bodies(), number) == 0.0 && bodies().radii.find(number) == nullptr;
+  core().set_kind(number,
+                  contacts().walls_of(number) != 0 || !contacts().partners_of(number).empty() ||
+                      !contacts().overlaps_of(number).empty(),
+                  is_plain);
 }
 
 /// Tells the core of reports that have begun bounds anew.
@@ -142,8 +147,11 @@ double EventProcessor::keep_time(std::uint32_t a, std::uint32_t b, const std::op
   return until.value_or(infinity);
 }
 
-Result<void> EventProcessor::refresh(std::uint32_t ball) {
-  return probe(std::span(&ball, 1), ProbeCause::window);
+Result<bool> EventProcessor::report(std::span<const std::uint32_t> balls, Reason reason) {
+  const auto probed = probe(balls, reason == Reason::near ? ProbeCause::near : ProbeCause::window);
+  if (!probed) return probed.error();
+  return std::none_of(balls.begin(), balls.end(),
+                      [this](std::uint32_t ball) { return bodies()[ball].dirty; });
 }
 
 void EventProcessor::note_image(std::uint32_t ball, const Vec3& centre) {

@@ -212,7 +212,7 @@ class alignas(128) EventProcessor final : public core::Host {
   Result<double> recheck(std::uint32_t a, std::uint32_t b) override;
   double walls_unchanged_until(std::uint32_t ball) override;
   Result<double> recheck_walls(std::uint32_t ball) override;
-  Result<void> refresh(std::uint32_t ball) override;
+  Result<bool> report(std::span<const std::uint32_t> balls, Reason reason) override;
   void note_image(std::uint32_t ball, const Vec3& centre) override;
   Counters& work_counters() override { return work_.counters; }
 

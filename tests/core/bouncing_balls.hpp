@@ -123,6 +123,7 @@ class BouncingBalls final : core::Host {
   void enter(std::uint32_t number) {
     truth.balls[number].present = true;
     core_.enter(number, bound(number), false, true);
+    core_.set_kind(number, false, true);
     note_change(number);
   }
   void leave(std::uint32_t number) {
@@ -211,21 +212,7 @@ class BouncingBalls final : core::Host {
         recede_for_good(State{{}, balls.velocity(a)}, State{balls.between(a, b), balls.velocity(b)});
     return parts ? std::numeric_limits<double>::infinity() : core_.time();
   }
-  Result<double> recheck(std::uint32_t a, std::uint32_t b) override {
-    for (;;) {
-      const double least = norm(core_.balls().between(a, b)) - core_.balls()[a].radius -
-                           core_.balls()[b].radius - core_.balls().growth(a) - core_.balls().growth(b);
-      if (least > definition_.contact_tolerance) {
-        Bound image = core_.balls().bound(b);
-        image.position = core_.balls().bound(a).centre_at(core_.time()) + core_.balls().between(a, b) -
-                         (image.centre_at(core_.time()) - image.position);
-        return earliest_meeting(core_.balls().bound(a), image, core_.time(), 1e9,
-                                0.1 * definition_.contact_tolerance);
-      }
-      if (is_fresh(a) && is_fresh(b)) return put_off(a, b, answer(a, b));
-      probe(!is_fresh(a) && (is_fresh(b) || core_.balls()[a].time < core_.balls()[b].time) ? a : b);
-    }
-  }
+  Result<double> recheck(std::uint32_t a, std::uint32_t b) override { return put_off(a, b, answer(a, b)); }
   double walls_unchanged_until(std::uint32_t ball) override { return unchanged_until(ball, core::none); }
   Result<double> recheck_walls(std::uint32_t ball) override {
     if (!is_fresh(ball)) probe(ball);
@@ -234,9 +221,9 @@ class BouncingBalls final : core::Host {
       if (stands(*walls_of(definition_), wall)) until = std::min(until, answer_wall(ball, wall));
     return put_off(ball, core::none, until);
   }
-  Result<void> refresh(std::uint32_t ball) override {
-    probe(ball);
-    return {};
+  Result<bool> report(std::span<const std::uint32_t> balls, Reason) override {
+    for (const std::uint32_t ball : balls) probe(ball);
+    return true;
   }
   void note_image(std::uint32_t, const Vec3&) override {}
   Counters& work_counters() override { return work; }

@@ -245,11 +245,12 @@ TEST(Core, LosesNoDigitsInALongFlight) {
   EXPECT_LT(norm(way), 1e-9);
 }
 
-TEST(Core, NeverProbesBallsWhoseMotionIsKnown) {
+/// Balls whose motion is known are asked where they meet alone.
+TEST(Core, ProbesBallsWhoseMotionIsKnownAtContacts) {
   BouncingBalls run(with_walls(), {random_balls({.count = 100}, with_walls(), seed), seed});
   run.play(5.0);
   EXPECT_GT(run.bounces.size(), 100u);
-  EXPECT_EQ(run.probes, 0u);
+  EXPECT_LE(run.probes, 2 * run.bounces.size());
 }
 
 /// A ball far from all others costs little, however long time goes on.

@@ -1,0 +1,108 @@
+// The scan of a ball's neighbours: when it is due.
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "bound/quick_reject.hpp"
+#include "core/core.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere::core {
+
+/// Computes when a ball is due: at its own time, or when something may happen between it and a neighbour, if
+/// that is earlier.
+void Core::schedule(std::uint32_t number, Host& host) {
+  Ball& ball = balls_[number];
+  if (ball.is(Ball::passive)) return;
+  if (ball.scans < 255) ++ball.scans;
+  ball.about = none;
+  ball.due = ball.second = ball.own;
+  ball.set(Ball::crowded, false);
+  const auto neighbours = lists_.at(ball.list);
+  Counters& work = host.work_counters();
+  for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
+    const auto some = neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes));
+    std::array<double, most_lanes> apart;
+    for (std::uint32_t left = candidates(number, some, ball.second - balls_.time(), apart); left != 0;
+         left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      const std::uint32_t other = some[lane];
+      double until = rounding::sum_down(balls_.time(), apart[lane]);
+      if (!(until > balls_.time())) until = apart_until(number, other, ball.second - balls_.time());
+      if (!(until > balls_.time())) {
+        ball.set(Ball::crowded, true);
+        until = host.unchanged_until(number, other);
+      }
+      ++work.certificates;
+      if (until < ball.own) ++work.hot_pairs;
+      consider(ball, other, until);
+    }
+  }
+  if (ball.is(Ball::linked))
+    for (const std::uint32_t other : host.linked_with(number))
+      consider(ball, other, host.unchanged_until(number, other));
+  queue_.push(balls_.all(), number);
+}
+
+/// Something may happen between a ball and a neighbour at this time. Of two at the same time, the ball is due
+/// about the one with the lower number, in whatever order they are considered.
+void Core::consider(Ball& ball, std::uint32_t other, double time) {
+  if (time == ball.due && ball.about != none && other < ball.about) {
+    ball.second = time;
+    ball.about = other;
+    return;
+  }
+  if (!(time < ball.second)) return;
+  if (time < ball.due) {
+    ball.second = ball.due;
+    ball.due = time;
+    ball.about = other;
+  } else {
+    ball.second = time;
+  }
+}
+
+/// Returns a bit for each of some neighbours that may be met within this time from now, and how long each of
+/// these is certainly not met (may_meet() in near_lanes.hpp).
+std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
+                               double duration, std::span<double, most_lanes> apart) const {
+  const Ball& ball = balls_[number];
+  if (!balls_.any_drifts()) {
+    const NearQuery query{balls_.time(),
+                          duration,
+                          balls_.position(number),
+                          ball.velocity,
+                          ball.radius + balls_.growth(number) + margin_,
+                          margin_,
+                          tolerance_ - margin_,
+                          balls_.growth_speed(number),
+                          ball.acceleration_limit,
+                          balls_.any_grows(),
+                          &balls_.periods()};
+    return may_meet(balls_.all().data(), neighbours.data(), neighbours.size(), query, apart.data());
+  }
+  std::fill(apart.begin(), apart.end(), 0.0);
+  std::uint32_t found = 0;
+  const BoundAt own = balls_.bound_now(number);
+  for (std::size_t k = 0; k < neighbours.size(); ++k) {
+    BoundAt other = balls_.bound_now(neighbours[k]);
+    other.centre = own.centre + balls_.nearest(other.centre - own.centre);
+    if (!QuickReject(own, other).stay_apart(duration, margin_)) found |= 1u << k;
+  }
+  return found;
+}
+
+/// Returns a time before which the bounds of two neighbours do not come near each other; +infinity if they do
+/// not for `horizon` from now. Returns the present time if they may be near each other now, so that reports
+/// have to decide.
+double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const {
+  const BoundAt own = balls_.bound_now(number);
+  BoundAt other = balls_.bound_now(neighbour);
+  if (balls_.periods().any) other.centre = own.centre + balls_.nearest(other.centre - own.centre);
+  const QuickReject pair(own, other);
+  if (pair.stay_apart(horizon, margin_)) return infinity;
+  if (pair.is_near(tolerance_)) return balls_.time();
+  return std::max(rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_)), balls_.time());
+}
+
+}  // namespace kinesphere::core
