@@ -100,8 +100,9 @@ double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double h
   BoundAt other = balls_.bound_now(neighbour);
   if (balls_.periods().any) other.centre = own.centre + balls_.nearest(other.centre - own.centre);
   const QuickReject pair(own, other);
-  if (pair.stay_apart(horizon, margin_)) return infinity;
+  // What is near is never put off here: only the host remembers that it has been.
   if (pair.is_near(tolerance_)) return balls_.time();
+  if (pair.stay_apart(horizon, margin_)) return infinity;
   return std::max(rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_)), balls_.time());
 }
 
