@@ -107,7 +107,7 @@ const char* World::Engine::first_invalid_part() const {
       !shape_contacts_are_valid())
     return "contacts";
   if (!broad_phase().is_valid(bodies().numbers()) || !state_.window_policy.is_valid()) return "windows";
-  if (!state_.spot_checks.is_valid()) return "spot checks";
+  if (!state_.spot_checks.is_valid(time())) return "spot checks";
   if (state_.core && !main_.knows_valid_times()) return "certificates";
   if (!prepared_ && broad_phase().search_begin() != -infinity) return "windows";
   if (prepared_ &&
