@@ -34,7 +34,8 @@ TEST(SpotChecks, AreRefusedIfTheyContradictThemselves) {
   const Fields good{{1.0, 2.0}, 2.0, 0.25, 1.5, 2.5, infinity, 0.5};
   EXPECT_TRUE(is_valid(good, 2.0));
   EXPECT_TRUE(is_valid({{}, 2.0, 0.25, 1.5, infinity, 3.0, 0.5}, 2.0));
-  EXPECT_FALSE(is_valid(good, 1.75)) << "an arrival of the future: the next one would come before it";
+  EXPECT_FALSE(is_valid({{1.0, 2.5}, 2.0, 0.25, 1.5, 2.5, infinity, 0.5}, 2.0))
+      << "an arrival of the future: the next one would come before it";
   const auto with = [&](double Fields::*field, double value) {
     Fields fields = good;
     fields.*field = value;
