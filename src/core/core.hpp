@@ -94,6 +94,8 @@ class Core {
       archive(self.saved_);
     }
   }
+  /// Returns true if a ball with this bound, which was read from bytes, can have a safe region at `time`.
+  bool can_hold(const Bound& bound, double time) const;
   /// Makes the rest anew after reading, at this time. Returns false if no core could have been so.
   bool rebuild(double time);
 

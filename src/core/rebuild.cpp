@@ -20,6 +20,10 @@ Core::Saved Core::saved() const {
   return saved;
 }
 
+bool Core::can_hold(const Bound& bound, double time) const {
+  return norm_one(bound.centre_at(time)) + bound.radius_at(time) < 0x1p61 * unit_;
+}
+
 bool Core::rebuild(double time) {
   balls_.set_time(time);
   if (!balls_.has_valid_drifts() || saved_.reaches.size() != balls_.size() ||
@@ -48,6 +52,7 @@ bool Core::rebuild(double time) {
 bool Core::is_valid(std::uint32_t number, std::span<const std::vector<std::uint32_t>> lists) const {
   const Ball& ball = balls_[number];
   if (!balls_.is_valid(number) || !(ball.radius < 0x1p32 * unit_)) return false;
+  if (ball.is_present() && !can_hold(balls_.bound(number), balls_.time())) return false;
   const std::vector<std::uint32_t>& neighbours = lists[number];
   if (!ball.is_present()) return neighbours.empty();
   const float reach = saved_.reaches[number];

@@ -107,7 +107,7 @@ const char* World::Engine::first_invalid_part() const {
       !shape_contacts_are_valid())
     return "contacts";
   if (!broad_phase().is_valid(bodies().numbers()) || !state_.window_policy.is_valid()) return "windows";
-  if (!state_.spot_checks.is_valid()) return "spot checks";
+  if (!state_.spot_checks.is_valid(time())) return "spot checks";
   if (state_.core && !main_.knows_valid_times()) return "certificates";
   if (!prepared_ && broad_phase().search_begin() != -infinity) return "windows";
   if (prepared_ &&
@@ -120,6 +120,7 @@ const char* World::Engine::first_invalid_part() const {
     const bool registered = is_registered(number);
     if (body.alive && !contacts().has_form_of(number, body.has_shape(), body.is_static())) return "contacts";
     if (takes_part ? !registered && !bodies()[number].dirty : registered) return "windows";
+    if (takes_part && state_.core && !state_.core->can_hold(body.bound, time())) return "safe regions";
     if (registered && body.is_static() && box_end(number) != infinity) return "windows";
     if (!takes_part && (!contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty()))
       return "contacts";

@@ -112,11 +112,13 @@ class SpotChecks {
   static void serialize(auto& self, auto& archive) {
     archive(self.arrivals_, self.arrived_, self.first_, self.checked_, self.rarer_, self.even_, self.began_);
   }
-  /// Validates values read from bytes.
-  bool is_valid() const {
-    return first_ >= 0.0 && !std::isnan(arrived_) && !std::isnan(checked_) && !std::isnan(rarer_) &&
-           !std::isnan(even_) && !std::isnan(began_) && std::is_sorted(arrivals_.begin(), arrivals_.end()) &&
-           std::none_of(arrivals_.begin(), arrivals_.end(), [](double time) { return std::isnan(time); });
+  /// Validates values read from bytes: none has happened after `time`, so that times of arrivals stay in
+  /// ascending order, and no sum of infinities becomes a NaN.
+  bool is_valid(double time) const {
+    return first_ >= 0.0 && first_ < infinity && arrived_ <= time && checked_ <= time && began_ <= time &&
+           !std::isnan(rarer_) && (rarer_ == infinity || arrived_ > -infinity) && !std::isnan(even_) &&
+           std::is_sorted(arrivals_.begin(), arrivals_.end()) &&
+           std::all_of(arrivals_.begin(), arrivals_.end(), [=](double arrival) { return arrival <= time; });
   }
   std::size_t bytes() const { return arrivals_.capacity() * sizeof(double); }
 

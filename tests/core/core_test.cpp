@@ -267,5 +267,16 @@ TEST(Core, LetsLonelyBallsAlone) {
   EXPECT_EQ(standing.work.starts, 0u);
 }
 
+/// Bounds that were read from bytes are refused if no safe region can be around them.
+TEST(Core, HoldsNoBoundBeyondAllRegions) {
+  for (const WorldDefinition& definition : {with_walls(), periodic(), unbounded(), flat()}) {
+    const core::Core core(definition);
+    EXPECT_TRUE(core.can_hold({.position = {1, 2, 3}, .velocity = {4, 5, 6}, .radius = 1.0}, 1e6));
+    EXPECT_FALSE(core.can_hold({.position = {1, 2, 0x1p480}, .radius = 1.0}, 0.0));
+    EXPECT_FALSE(core.can_hold({.velocity = {-1e100, 0, 0}, .radius = 1.0}, 1.0));
+    EXPECT_FALSE(core.can_hold({.radius = 1.0, .acceleration_limit = 1e100}, 1.0));
+  }
+}
+
 }  // namespace
 }  // namespace kinesphere::core_test

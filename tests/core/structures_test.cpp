@@ -211,6 +211,36 @@ TEST(RegionCells, FindAllWithinReach) {
   }
 }
 
+/// Regions beside a row of regions lie beyond the cells that have chains of their own, and share chains with
+/// cells of the row. A search that finds one of them twice says so.
+TEST(RegionCells, TellThatARegionMayBeFoundTwice) {
+  constexpr std::uint32_t count = 400;
+  RegionCells cells({}, 2);
+  Balls balls(Periods{}, 0.0);
+  balls.grow(count + 1);
+  const float reach = RegionCells::raised(1.0F);
+  for (std::uint32_t number = 0; number < count; ++number) {
+    balls[number].centre[0] = 0.25F;
+    balls[number].centre[1] = 0.05F * static_cast<float>(number);
+    cells.enter(balls, number, reach);
+  }
+  cells.rebuild(balls);
+  core::RegionSearch search;
+  std::size_t repeats = 0;
+  for (int step = 0; step < 20; ++step) {
+    balls[count].centre[0] = 0.25F + 0.1F * static_cast<float>(step);
+    balls[count].centre[1] = 10.0F;
+    cells.enter(balls, count, reach);
+    cells.search(balls[count], reach, search);
+    const std::set<std::uint32_t> expected(search.found.begin(), search.found.end());
+    repeats += search.found.size() - expected.size();
+    search.drop_repeats();
+    EXPECT_EQ(search.found.size(), expected.size()) << "step " << step;
+    cells.leave(balls, count);
+  }
+  EXPECT_GT(repeats, 0U);
+}
+
 /// The lanes say what QuickReject says, with vectors of every width that this machine has.
 TEST(NearLanes, RejectWhatQuickRejectRejects) {
   const auto numbers = [](Random& random, int kind) {

@@ -19,6 +19,7 @@
 #include "motion/still.hpp"
 #include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
+#include "support/in_windows.hpp"
 
 namespace kinesphere::simulation_test {
 namespace {
@@ -227,6 +228,7 @@ std::uint64_t hash_of_comings_and_goings(int threads) {
   }
   const auto crowd = simulation.add_motion(RandomForces::create(forces).value());
   simulation.add_all(crowd, {.radius = 0.5}).value();
+  use_windows(simulation.world());
   const auto respond = [](const Event& event) -> Response {
     if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) return {};
     Random dice(std::bit_cast<std::uint64_t>(event.time));
@@ -256,8 +258,8 @@ std::uint64_t hash_of_comings_and_goings(int threads) {
 }
 
 TEST(Simulation, ForgetsRemovedBodiesInTheOrderOfEvents) {
-  const std::uint64_t hash = hash_of_comings_and_goings(2);
-  EXPECT_EQ(hash_of_comings_and_goings(3), hash);
+  const std::uint64_t hash = hash_of_comings_and_goings(1);
+  for (const int threads : {2, 3}) EXPECT_EQ(hash_of_comings_and_goings(threads), hash);
 }
 
 /// A motion whose author has forgotten that it needs a clone of its own.

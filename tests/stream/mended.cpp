@@ -276,7 +276,8 @@ void use(World world) {
   Random turns(8);
   if (world.bodies().size() % 2 == 0) give_random_rotations(world, turns);
   const auto restored = World::restore(world.save().value(), any_pair);
-  demand(static_cast<bool>(restored), "what was restored is refused when it is saved");
+  if (!restored)
+    throw std::logic_error("what was restored is refused when it is saved: " + restored.error().message);
   try {
     ask(world, random, probe);
     for (int k = 0; k < 30; ++k) {
