@@ -38,7 +38,7 @@ Result<Checkpoint> Checkpoint::read(std::span<const std::byte> bytes) {
     return refusal("must be parts of a world, but one has the wrong format");
   if (!check_world(checkpoint.definition) || checkpoint.part >= checkpoint.identity.parts ||
       !std::isfinite(checkpoint.identity.time) || std::isnan(checkpoint.epoch_end) ||
-      !checkpoint.spot_checks.is_valid())
+      !checkpoint.spot_checks.is_valid(checkpoint.identity.time))
     return refusal("must be consistent, but one contradicts itself");
   return checkpoint;
 }
