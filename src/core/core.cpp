@@ -134,6 +134,7 @@ Result<void> Core::handle(std::uint32_t number, Host& host) {
 /// when they may meet. When both reports are of now, the host decides. Returns a time before which nothing
 /// happens between them, as Host::recheck() does.
 Result<double> Core::recheck(std::uint32_t number, std::uint32_t other, Host& host) {
+  ++host.work_counters().pair_checks;
   const Ball &ball = balls_[number], &partner = balls_[other];
   const auto is_plain = [](const Ball& each) { return each.is(Ball::plain) && !each.is(Ball::linked); };
   if (!is_plain(ball) || !is_plain(partner)) return host.recheck(number, other);

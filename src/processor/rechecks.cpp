@@ -19,6 +19,7 @@ Result<void> EventProcessor::recheck(const PairCertificate& pair) {
     return renewed;
   }
   const bool with_walls = pair.kind() == PairCertificate::Kind::with_walls;
+  if (!with_walls) ++work_.counters.pair_checks;
   const auto until = with_walls ? check_walls(pair.first) : check_pair(pair.first, pair.second);
   if (!until) return until.error();
   requeue.dismiss();
@@ -32,7 +33,6 @@ Result<void> EventProcessor::recheck(const PairCertificate& pair) {
 /// which means nothing beyond the earlier window end; nullopt if an event waits, or if one of the two is
 /// dirty.
 Result<std::optional<double>> EventProcessor::check_pair(std::uint32_t a, std::uint32_t b) {
-  ++work_.counters.pair_checks;
   const PairCertifier certifier = this->certifier();
   // A violated bound makes a body dirty; recertification then creates all its certificates.
   while (!bodies()[a].dirty && !bodies()[b].dirty) {
