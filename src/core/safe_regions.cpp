@@ -62,7 +62,7 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
   if (stays(number) <= stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time())) {
     const double radius = double{ball.region} * unit_;
     const bool is_wide = balls_.growth(number) > growth_worth_a_report * radius;
-    const bool is_far = norm_one(ball.velocity) * (balls_.time() - ball.time) > longest_flight * radius;
+    const bool is_far = norm_one(balls_.position(number) - ball.position) > longest_flight * radius;
     if (is_wide || is_far)
       if (auto reported = host.report(std::span(&number, 1), Host::Reason::region); !reported)
         return reported.error();

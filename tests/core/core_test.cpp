@@ -233,6 +233,16 @@ TEST(Core, FindsImpactsOfBallsThatFillAPeriodicBox) {
   EXPECT_GT(run.bounces.size(), 5u);
 }
 
+/// It is exact as long as it falls, and comes far from where it reported.
+TEST(Core, AsksABallThatFallsFromRest) {
+  std::vector<TrueBall> balls(1);
+  balls[0].radius = 0.5;
+  balls[0].planned_acceleration = {0, 0, -1};
+  BouncingBalls run(periodic(), {balls, seed});
+  run.play(20.0);
+  EXPECT_GT(run.core().balls()[0].time, 0.0);
+}
+
 TEST(Core, LosesNoDigitsInALongFlight) {
   std::vector<TrueBall> balls(1);
   balls[0].radius = 0.5;
