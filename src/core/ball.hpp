@@ -66,5 +66,6 @@ struct Drift {
 
   friend constexpr bool operator==(const Drift&, const Drift&) = default;
 };
+static_assert(sizeof(Drift) == 4 * sizeof(double));
 
 }  // namespace kinesphere::core

@@ -35,8 +35,8 @@ class Balls {
 
   /// True if some bound has ever grown.
   bool any_grows() const { return grows_; }
-  /// True if some bound has ever had one of the terms of Drift.
-  bool any_drifts() const { return !drifts_.empty(); }
+  /// Returns the drifts by number; nullptr if no bound has ever had one.
+  const Drift* drifts() const { return drifts_.empty() ? nullptr : drifts_.data(); }
   void set_bound(std::uint32_t number, const Bound& bound) {
     balls_[number].position = bound.position;
     balls_[number].velocity = bound.velocity;

@@ -44,6 +44,10 @@ template <class V>
 struct Neighbours {
   V x, y, z, time, u, v, w, radius;
 };
+template <class V>
+struct Drifts {
+  V x, y, z, growth_speed;
+};
 
 #if HWY_MAX_BYTES >= 32
 using D = hn::FixedTag<double, 4>;
@@ -70,6 +74,14 @@ HWY_INLINE Neighbours<V> load(D d, const Ball* balls, const std::uint32_t* n) {
   return all;
 }
 template <class V>
+HWY_INLINE Drifts<V> load_drifts(D d, const Drift* drifts, const std::uint32_t* n) {
+  const auto row = [=](std::uint32_t number)
+                       HWY_ATTR { return hn::LoadU(d, &drifts[number].planned_acceleration.x); };
+  Drifts<V> all{row(n[0]), row(n[1]), row(n[2]), row(n[3])};
+  columns(d, all.x, all.y, all.z, all.growth_speed);
+  return all;
+}
+template <class V>
 HWY_INLINE V limits(D d, const Ball* balls, const std::uint32_t* n) {
   alignas(32) const double limit[4] = {balls[n[0]].acceleration_limit, balls[n[1]].acceleration_limit,
                                        balls[n[2]].acceleration_limit, balls[n[3]].acceleration_limit};
@@ -83,6 +95,12 @@ HWY_INLINE Neighbours<V> load(D d, const Ball* balls, const std::uint32_t* n) {
   const Ball& b = balls[*n];
   return {hn::Set(d, b.position.x), hn::Set(d, b.position.y), hn::Set(d, b.position.z), hn::Set(d, b.time),
           hn::Set(d, b.velocity.x), hn::Set(d, b.velocity.y), hn::Set(d, b.velocity.z), hn::Set(d, b.radius)};
+}
+template <class V>
+HWY_INLINE Drifts<V> load_drifts(D d, const Drift* drifts, const std::uint32_t* n) {
+  const Drift& drift = drifts[*n];
+  const Vec3& plan = drift.planned_acceleration;
+  return {hn::Set(d, plan.x), hn::Set(d, plan.y), hn::Set(d, plan.z), hn::Set(d, drift.growth_speed)};
 }
 template <class V>
 HWY_INLINE V limits(D d, const Ball* balls, const std::uint32_t* n) {
@@ -109,21 +127,37 @@ HWY_INLINE std::uint32_t bits_of(D d, M mask) {
 }
 
 /// The motion of a ball relative to those of a group, from the present on: the vector between the centres is
-/// X + V t after a time t, and the sum of the radii, with the margin, start + (rate + growth t) t.
+/// X + V t after a time t, and the sum of the radii, with the margin, start + (rate + growth t) t. What
+/// different planned accelerations bend the way between the centres by counts as growth.
 template <bool grows>
 struct RelativeMotions {
   V x, y, z, u, v, w, start, rate, growth;
   V square, approach, speed;  ///< |X|^2, -X V, |V|^2
   V passing;                  ///< |X x V|^2
 
-  template <bool repeats>
+  template <bool drifts, bool repeats>
   HWY_INLINE static RelativeMotions of(D d, const Ball* balls, const std::uint32_t* n, const NearQuery& q) {
-    const Neighbours<V> b = load<V>(d, balls, n);
-    const V since = hn::Sub(hn::Set(d, q.now), b.time);
+    static_assert(grows || !drifts);
+    Neighbours<V> b = load<V>(d, balls, n);
+    const V since = hn::Sub(hn::Set(d, q.now), b.time), half = hn::Set(d, 0.5);
     RelativeMotions m;
-    m.x = hn::Sub(hn::Set(d, q.position.x), hn::Add(b.x, hn::Mul(b.u, since)));
-    m.y = hn::Sub(hn::Set(d, q.position.y), hn::Add(b.y, hn::Mul(b.v, since)));
-    m.z = hn::Sub(hn::Set(d, q.position.z), hn::Add(b.z, hn::Mul(b.w, since)));
+    b.x = hn::Add(b.x, hn::Mul(b.u, since));
+    b.y = hn::Add(b.y, hn::Mul(b.v, since));
+    b.z = hn::Add(b.z, hn::Mul(b.w, since));
+    Drifts<V> drift;
+    if constexpr (drifts) {
+      drift = load_drifts<V>(d, q.drifts, n);
+      const V squared = hn::Mul(hn::Mul(half, since), since);
+      b.x = hn::Add(b.x, hn::Mul(drift.x, squared));
+      b.y = hn::Add(b.y, hn::Mul(drift.y, squared));
+      b.z = hn::Add(b.z, hn::Mul(drift.z, squared));
+      b.u = hn::Add(b.u, hn::Mul(drift.x, since));
+      b.v = hn::Add(b.v, hn::Mul(drift.y, since));
+      b.w = hn::Add(b.w, hn::Mul(drift.z, since));
+    }
+    m.x = hn::Sub(hn::Set(d, q.position.x), b.x);
+    m.y = hn::Sub(hn::Set(d, q.position.y), b.y);
+    m.z = hn::Sub(hn::Set(d, q.position.z), b.z);
     if constexpr (repeats) {
       m.x = image(d, m.x, q.periods->length.x, q.periods->inverse.x);
       m.y = image(d, m.y, q.periods->length.y, q.periods->inverse.y);
@@ -134,10 +168,19 @@ struct RelativeMotions {
     m.w = hn::Sub(hn::Set(d, q.velocity.z), b.w);
     m.start = hn::Add(b.radius, hn::Set(d, q.radius));
     if constexpr (grows) {
-      const V limit = limits<V>(d, balls, n), half = hn::Set(d, 0.5);
+      const V limit = limits<V>(d, balls, n);
       m.start = hn::Add(m.start, hn::Mul(half, hn::Mul(hn::Mul(limit, since), since)));
       m.rate = hn::Add(hn::Mul(limit, since), hn::Set(d, q.speed));
-      m.growth = hn::Mul(half, hn::Add(limit, hn::Set(d, q.growth)));
+      m.growth = hn::Add(limit, hn::Set(d, q.growth));
+      if constexpr (drifts) {
+        m.start = hn::Add(m.start, hn::Mul(drift.growth_speed, since));
+        m.rate = hn::Add(m.rate, drift.growth_speed);
+        const V bend = hn::Add(hn::Add(hn::Abs(hn::Sub(hn::Set(d, q.plan.x), drift.x)),
+                                       hn::Abs(hn::Sub(hn::Set(d, q.plan.y), drift.y))),
+                               hn::Abs(hn::Sub(hn::Set(d, q.plan.z), drift.z)));
+        m.growth = hn::Add(m.growth, bend);
+      }
+      m.growth = hn::Mul(half, m.growth);
     }
     m.square = dot(m.x, m.y, m.z, m.x, m.y, m.z);
     m.approach = hn::Neg(dot(m.x, m.y, m.z, m.u, m.v, m.w));
@@ -171,9 +214,10 @@ struct RelativeMotions {
   }
 };
 
-/// When they come within the radii and `more` (length) where the bounds do not grow; anything, where they do
+/// When they come within the radii and `more` (length) if the bounds do not grow; anything, where they do
 /// not.
-HWY_INLINE V guess_meeting(D d, const RelativeMotions<false>& m, V more) {
+template <bool grows>
+HWY_INLINE V guess_meeting(D d, const RelativeMotions<grows>& m, V more) {
   const V reach = hn::Add(m.start, more);
   const V left = hn::Sub(m.square, hn::Mul(reach, reach));
   const V root = hn::Sub(hn::Mul(m.approach, m.approach), hn::Mul(m.speed, left));
@@ -203,7 +247,7 @@ HWY_INLINE V refine(D d, const RelativeMotions<true>& m, V more, V time) {
 
 /// Returns how long those of a group certainly stay apart, 0 where that is unknown: times are guessed, and
 /// then tried.
-template <bool grows>
+template <bool grows, bool drifts>
 HWY_INLINE V stay_apart_for(D d, const RelativeMotions<grows>& pairs, const NearQuery& q) {
   // With as much again as the margin, what rounding makes of a guess does not matter.
   const V zero = hn::Zero(d), more = hn::Set(d, q.margin), near = hn::Add(pairs.start, hn::Set(d, q.near));
@@ -214,45 +258,52 @@ HWY_INLINE V stay_apart_for(D d, const RelativeMotions<grows>& pairs, const Near
   if constexpr (grows) {
     const V early = guess_early_meeting(d, pairs, more);
     time = hn::Max(tried(early), tried(refine(d, pairs, more, early)));
+    // Most of those that fall alike do not grow.
+    if constexpr (drifts) time = hn::Max(time, tried(guess_meeting(d, pairs, more)));
   } else {
     time = tried(guess_meeting(d, pairs, more));
   }
   return hn::IfThenElseZero(hn::Gt(pairs.square, hn::Mul(near, near)), time);
 }
 
-template <bool grows, bool repeats>
+template <bool grows, bool drifts, bool repeats>
 HWY_INLINE std::uint32_t group(const Ball* balls, const std::uint32_t* n, const NearQuery& q, double* apart) {
   const D d;
-  const auto pairs = RelativeMotions<grows>::template of<repeats>(d, balls, n, q);
+  const auto pairs = RelativeMotions<grows>::template of<drifts, repeats>(d, balls, n, q);
   const M meet = hn::Not(pairs.stay_apart(d, hn::Set(d, q.duration)));
   const std::uint32_t found = bits_of(d, meet) & ((1u << hn::Lanes(d)) - 1);
-  if (found != 0) hn::StoreU(stay_apart_for<grows>(d, pairs, q), d, apart);
+  if (found != 0) hn::StoreU(stay_apart_for<grows, drifts>(d, pairs, q), d, apart);
   return found;
 }
 
-template <bool grows, bool repeats>
+template <bool grows, bool drifts, bool repeats>
 std::uint32_t candidates(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                          const NearQuery& query, double* apart) {
   const std::size_t lanes = hn::Lanes(D());
   std::uint32_t found = 0;
   std::size_t k = 0;
   for (; k + lanes <= count; k += lanes)
-    found |= group<grows, repeats>(balls, neighbours + k, query, apart + k) << k;
+    found |= group<grows, drifts, repeats>(balls, neighbours + k, query, apart + k) << k;
   if (k < count) {
     std::uint32_t rest[8];
     for (std::size_t lane = 0; lane < lanes; ++lane) rest[lane] = neighbours[k + lane < count ? k + lane : k];
-    found |= (group<grows, repeats>(balls, rest, query, apart + k) & ((1u << (count - k)) - 1)) << k;
+    found |= (group<grows, drifts, repeats>(balls, rest, query, apart + k) & ((1u << (count - k)) - 1)) << k;
   }
   return found;
 }
 
+template <bool repeats>
+std::uint32_t candidates(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
+                         const NearQuery& query, double* apart) {
+  if (query.drifts != nullptr) return candidates<true, true, repeats>(balls, neighbours, count, query, apart);
+  return query.grows ? candidates<true, false, repeats>(balls, neighbours, count, query, apart)
+                     : candidates<false, false, repeats>(balls, neighbours, count, query, apart);
+}
+
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                        const NearQuery& query, double* apart) {
-  if (query.periods->any)
-    return query.grows ? candidates<true, true>(balls, neighbours, count, query, apart)
-                       : candidates<false, true>(balls, neighbours, count, query, apart);
-  return query.grows ? candidates<true, false>(balls, neighbours, count, query, apart)
-                     : candidates<false, false>(balls, neighbours, count, query, apart);
+  return query.periods->any ? candidates<true>(balls, neighbours, count, query, apart)
+                            : candidates<false>(balls, neighbours, count, query, apart);
 }
 
 using F = hn::CappedTag<float, RegionBlock::lanes>;

@@ -38,12 +38,14 @@ struct NearQuery {
   double now;
   double duration;
   Vec3 position, velocity;
-  double radius;  ///< with growth and margin
-  double margin;  ///< for rounding (length), which is in `radius`
-  double near;    ///< two whose gap is less than the margin and this (length) are near each other
-  double speed;   ///< at which the bound grows
-  double growth;  ///< acceleration with which it grows
-  bool grows;     ///< any bound grows
+  double radius;        ///< with growth and margin
+  double margin;        ///< for rounding (length), which is in `radius`
+  double near;          ///< two whose gap is less than the margin and this (length) are near each other
+  double speed;         ///< at which the bound grows
+  double growth;        ///< acceleration with which it grows
+  Vec3 plan;            ///< planned acceleration
+  bool grows;           ///< any bound grows
+  const Drift* drifts;  ///< of all balls; nullptr if there are none
   const Periods* periods;
 };
 /// Most neighbours in one call, for which `apart` has room.

@@ -67,29 +67,20 @@ void Core::consider(Ball& ball, std::uint32_t other, double time) {
 std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
                                double duration, std::span<double, most_lanes> apart) const {
   const Ball& ball = balls_[number];
-  if (!balls_.any_drifts()) {
-    const NearQuery query{balls_.time(),
-                          duration,
-                          balls_.position(number),
-                          ball.velocity,
-                          ball.radius + balls_.growth(number) + margin_,
-                          margin_,
-                          tolerance_ - margin_,
-                          balls_.growth_speed(number),
-                          ball.acceleration_limit,
-                          balls_.any_grows(),
-                          &balls_.periods()};
-    return may_meet(balls_.all().data(), neighbours.data(), neighbours.size(), query, apart.data());
-  }
-  std::fill(apart.begin(), apart.end(), 0.0);
-  std::uint32_t found = 0;
-  const BoundAt own = balls_.bound_now(number);
-  for (std::size_t k = 0; k < neighbours.size(); ++k) {
-    BoundAt other = balls_.bound_now(neighbours[k]);
-    other.centre = own.centre + balls_.nearest(other.centre - own.centre);
-    if (!QuickReject(own, other).stay_apart(duration, margin_)) found |= 1u << k;
-  }
-  return found;
+  const NearQuery query{balls_.time(),
+                        duration,
+                        balls_.position(number),
+                        balls_.velocity(number),
+                        ball.radius + balls_.growth(number) + margin_,
+                        margin_,
+                        tolerance_ - margin_,
+                        balls_.growth_speed(number),
+                        ball.acceleration_limit,
+                        balls_.plan(number),
+                        balls_.any_grows(),
+                        balls_.drifts(),
+                        &balls_.periods()};
+  return may_meet(balls_.all().data(), neighbours.data(), neighbours.size(), query, apart.data());
 }
 
 /// Returns a time before which the bounds of two neighbours do not come near each other; +infinity if they do
