@@ -40,8 +40,8 @@ struct alignas(64) Ball {
   static constexpr std::uint8_t arriving = 16;  ///< it has no neighbours yet, and its safe region is a point
   static constexpr std::uint8_t present = 32;   ///< the record is that of a ball
   static constexpr std::uint8_t crowded = 64;  ///< it may have been in touch with neighbours at its last scan
-  static constexpr std::uint8_t plain =
-      128;  ///< it touches others where its bound does, and nothing is sensed
+  /// It touches others just where its bound does, has no sensor, and does not sleep.
+  static constexpr std::uint8_t plain = 128;
 
   bool is(std::uint8_t flag) const { return (flags & flag) != 0; }
   void set(std::uint8_t flag, bool on) {

@@ -69,11 +69,16 @@ class Balls {
   [[gnu::always_inline]] BoundAt bound_now(std::uint32_t number) const {
     const Ball& ball = balls_[number];
     const double since = now_ - ball.time, limit = ball.acceleration_limit;
-    BoundAt bound(ball.position + ball.velocity * since, ball.velocity, Vec3{},
-                  ball.radius + 0.5 * limit * since * since, limit * since, limit);
-    if (!drifts_.empty()) [[unlikely]]
-      add_drift(bound, drifts_[number], since);
-    return bound;
+    Vec3 centre = ball.position + ball.velocity * since, velocity = ball.velocity, plan{};
+    double growth = 0.5 * limit * since * since, speed = limit * since;
+    if (!drifts_.empty()) {
+      plan = drifts_[number].planned_acceleration;
+      centre += plan * (0.5 * since * since);
+      velocity += plan * since;
+      growth += drifts_[number].growth_speed * since;
+      speed += drifts_[number].growth_speed;
+    }
+    return {centre, velocity, plan, ball.radius + growth, speed, limit};
   }
   Vec3 plan(std::uint32_t number) const {
     return drifts_.empty() ? Vec3{} : drifts_[number].planned_acceleration;
@@ -130,14 +135,6 @@ class Balls {
   bool has_valid_drifts() const { return drifts_.empty() || drifts_.size() == balls_.size(); }
 
  private:
-  static void add_drift(BoundAt& bound, const Drift& drift, double since) {
-    bound.centre += drift.planned_acceleration * (0.5 * since * since);
-    bound.velocity += drift.planned_acceleration * since;
-    bound.acceleration = drift.planned_acceleration;
-    bound.radius += drift.growth_speed * since;
-    bound.speed += drift.growth_speed;
-  }
-
   std::vector<Ball> balls_;
   std::vector<Drift> drifts_;  ///< by number; empty as long as no bound has drifted
   Periods periods_;

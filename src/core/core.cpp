@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 #include "bodies/body_bounds.hpp"
-#include "bound/quick_reject.hpp"
 #include "contact/contact_event.hpp"
 #include "number/infinity.hpp"
 #include "number/powers.hpp"

@@ -66,20 +66,20 @@ void Core::consider(Ball& ball, std::uint32_t other, double time) {
 /// these is certainly not met (may_meet() in near_lanes.hpp).
 std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
                                double duration, std::span<double, most_lanes> apart) const {
-  const Ball& ball = balls_[number];
-  const NearQuery query{balls_.time(),
-                        duration,
-                        balls_.position(number),
-                        balls_.velocity(number),
-                        ball.radius + balls_.growth(number) + margin_,
-                        margin_,
-                        tolerance_ - margin_,
-                        balls_.growth_speed(number),
-                        ball.acceleration_limit,
-                        balls_.plan(number),
-                        balls_.any_grows(),
-                        balls_.drifts(),
-                        &balls_.periods()};
+  const BoundAt own = balls_.bound_now(number);
+  const NearQuery query{.now = balls_.time(),
+                        .duration = duration,
+                        .position = own.centre,
+                        .velocity = own.velocity,
+                        .radius = own.radius + margin_,
+                        .margin = margin_,
+                        .near = tolerance_ - margin_,
+                        .speed = own.speed,
+                        .growth = own.growth,
+                        .plan = own.acceleration,
+                        .grows = balls_.any_grows(),
+                        .drifts = balls_.drifts(),
+                        .periods = &balls_.periods()};
   return may_meet(balls_.all().data(), neighbours.data(), neighbours.size(), query, apart.data());
 }
 

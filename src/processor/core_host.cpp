@@ -40,15 +40,14 @@ void EventProcessor::leave_core() {
   linked_.clear();
 }
 
-/// Tells the core whether the body touches or senses anything, and whether it is a ball like most.
-void EventProcessor::link_in_core(std::uint32_t number) {
+/// Tells the core whether the body touches or senses anything, and whether it is plain (core::Ball).
+void EventProcessor::set_kind_in_core(std::uint32_t number) {
   const Body& body = bodies()[number];
+  const bool is_linked = contacts().walls_of(number) != 0 || !contacts().partners_of(number).empty() ||
+                         !contacts().overlaps_of(number).empty();
   const bool is_plain = !body.is_shaped() && !body.is_sleeping() && body.change_number == Body::none &&
                         sensor_reach(bodies(), number) == 0.0 && bodies().radii.find(number) == nullptr;
-  core().set_kind(number,
-                  contacts().walls_of(number) != 0 || !contacts().partners_of(number).empty() ||
-                      !contacts().overlaps_of(number).empty(),
-                  is_plain);
+  core().set_kind(number, is_linked, is_plain);
 }
 
 /// Tells the core of reports that have begun bounds anew.
@@ -67,7 +66,7 @@ void EventProcessor::note_link_change(std::uint32_t a, std::uint32_t b) {
   known_.forget(a, b);
   for (const std::uint32_t number : {a, b}) {
     if (!core().contains(number)) continue;
-    link_in_core(number);
+    set_kind_in_core(number);
     linked_.push_back(number);
   }
 }
@@ -81,7 +80,7 @@ void EventProcessor::settle_core() {
       core().set_bound(number, extent_of(number));
     else
       enter_core(number);
-    link_in_core(number);
+    set_kind_in_core(number);
     body.mark_visited();
   }
   work_.counters.restarts += round_.size();

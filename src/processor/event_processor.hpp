@@ -201,7 +201,7 @@ class alignas(128) EventProcessor final : public core::Host {
   // core_host.cpp
   core::Core& core() { return *state_->core; }
   Bound extent_of(std::uint32_t number) const;
-  void link_in_core(std::uint32_t number);
+  void set_kind_in_core(std::uint32_t number);
   void settle_core();
   void note_reports(std::span<const std::uint32_t> numbers);
   void note_link_change(std::uint32_t a, std::uint32_t b);
