@@ -145,7 +145,7 @@ void RegionCells::insert_all(Balls& balls) {
 /// unless there are too many of them.
 void RegionCells::choose_chains() {
   built_for_ = std::max<std::size_t>(regions_, 64);
-  const std::size_t most = std::bit_ceil(built_for_) / 2;
+  const std::size_t most = std::max<std::size_t>(std::bit_ceil(built_for_) / 2, 8192);
   std::size_t taken = 0;
   for (Level& level : levels_) {
     const double cells = level.regions > 0 ? reserve_cells(level) : infinity;
