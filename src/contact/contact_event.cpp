@@ -77,6 +77,11 @@ State second_at_point(const Event& event) {
           point_velocity(event.second_state, event.second_angular_velocity, event.point)};
 }
 
+/// Returns the rate at which the gap of an event shrinks. `rates`: those at which the radii grow.
+double approach_speed(const Event& event, double rates) {
+  return dot(event.normal, first_at_point(event).velocity - second_at_point(event).velocity) + rates;
+}
+
 /// Precondition: the body is rigid.
 RigidPose pose_of(const Sphere& body, const Vec3& origin = {}) {
   return {body.state.position - origin, body.rotation.orientation, body.rigid->parts, body.rigid->balls};
@@ -147,20 +152,14 @@ void describe_as_seen(Event& event, const Sphere& first, const Sphere& second, b
   event.second_mass = second.mass;
   if (first.rigid || second.rigid) {
     describe_parts(event, first, second);
-    event.approach_speed =
-        dot(event.normal, first_at_point(event).velocity - second_at_point(event).velocity) +
-        (first.radius_rate + second.radius_rate);
-    return;
-  }
-  if (!first.shape && !second.shape) {
+  } else if (!first.shape && !second.shape) {
     describe_spheres(event, first, second);
   } else if (first.shape && second.shape) {
     describe_surfaces(event, first, second, is_flat);
   } else {
     describe_surface(event, first.shape ? second : first, first.shape ? first : second);
   }
-  event.approach_speed = dot(event.normal, first.state.velocity - second.state.velocity) +
-                         (first.radius_rate + second.radius_rate);
+  event.approach_speed = approach_speed(event, first.radius_rate + second.radius_rate);
 }
 
 }  // namespace
@@ -198,13 +197,24 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
     event.first_part = nearest.first_part;
     event.first_angular_velocity = sphere.rotation.angular_velocity;
     event.first_spin_gain = spin_gain_of(sphere, event);
-    event.approach_speed = dot(event.normal, first_at_point(event).velocity);
-    return;
+  } else {
+    const double distance = dot(inside.normal, sphere.state.position) - inside.offset;
+    event.gap = distance - sphere.radius;
+    event.point = sphere.state.position + event.normal * distance;
   }
-  const double distance = dot(inside.normal, sphere.state.position) - inside.offset;
-  event.gap = distance - sphere.radius;
-  event.approach_speed = dot(event.normal, sphere.state.velocity) + sphere.radius_rate;
-  event.point = sphere.state.position + event.normal * distance;
+  event.approach_speed = approach_speed(event, sphere.radius_rate);
+}
+
+void turn(Event& event, const Sphere& first, const Sphere& second) {
+  event.first_state.velocity = first.state.velocity;
+  event.first_angular_velocity = first.rotation.angular_velocity;
+  double rates = first.radius_rate;
+  if (event.second != no_body) {
+    event.second_state.velocity = second.state.velocity;
+    event.second_angular_velocity = second.rotation.angular_velocity;
+    rates += second.radius_rate;
+  }
+  event.approach_speed = approach_speed(event, rates);
 }
 
 double approach_error(const State& first, const State& second, double arm) {

@@ -48,8 +48,7 @@ void PendingEvents::forget_delivered(const ContactGraph& graph, std::uint32_t bo
   if (is_body(delivered_->first) || is_body(delivered_->second)) delivered_.reset();
 }
 
-void PendingEvents::note_response(ContactGraph& graph, const Sphere& first, const Sphere& second,
-                                  const std::optional<Box>& box) {
+void PendingEvents::note_response(ContactGraph& graph, const Sphere& first, const Sphere& second) {
   const Event reported = *delivered_;
   delivered_.reset();
   const auto moves_on = [](const Sphere& now, const State& state, const Vec3& spin) {
@@ -63,7 +62,7 @@ void PendingEvents::note_response(ContactGraph& graph, const Sphere& first, cons
   const Threshold threshold = graph.threshold_of(reported, wanted);
   if (!threshold.within || threshold.state.approach == ApproachState::ignored) return;
   Event now = reported;
-  describe_now(now, first, second, graph.space(), box);
+  turn(now, first, second);
   ContactState state = threshold.state;
   const double error = approach_error(now, first, second);
   const auto approaches = [&](const Event& event) {
@@ -86,17 +85,19 @@ void PendingEvents::note_response(ContactGraph& graph, const Sphere& first, cons
 void PendingEvents::queue(const Event& event) {
   // A caller that changes a velocity at a Zeno guard must not get that guard again at the same time, without
   // end.
-  if (!delivered_guards_.contains(event)) pending_.insert(event);
+  if (delivered_guards_.contains(event)) return;
+  if (pending_.empty()) are_outdated_ = false;
+  pending_.insert(event);
 }
 
-/// Applies the event to the contact graph, after recomputing it from the present states. Returns false, and
-/// leaves the graph unchanged, if the event no longer holds.
+/// Applies the event to the contact graph, as the present states have it. Returns false, and leaves the graph
+/// unchanged, if the event no longer holds.
 bool PendingEvents::take_effect(ContactGraph& graph, Event& event, const Sphere& first, const Sphere& second,
                                 const std::optional<Box>& box) {
   if (event.kind == EventKind::zeno_guard) delivered_guards_.insert(event);
   if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
   const bool begins_now = begins(event.kind);
-  describe_now(event, first, second, graph.space(), box);
+  if (are_outdated_) describe_now(event, first, second, graph.space(), box);
   if (!begins_now) {
     graph.set_touching(event, false);
   } else {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,8 +26,11 @@ class PendingEvents {
   }
   /// Starts a new time: delivered Zeno guards may be queued again.
   void start() { delivered_guards_.clear(); }
-  /// Queues an event unless it is already queued, or is a Zeno guard that was delivered at this time.
+  /// Queues an event, described as its bodies are now, unless it is already queued, or is a Zeno guard that
+  /// was delivered at this time.
   void queue(const Event& event);
+  /// A body changes: pending events have to be described anew.
+  void outdate() { are_outdated_ = true; }
   /// Queues an event that has already taken effect. It is delivered unchanged, before all events of queue().
   void queue_first(const Event& event) { ended_.insert(event); }
   /// Drops the event that a body woke, as it sleeps again or is gone before the caller was told.
@@ -68,13 +72,14 @@ class PendingEvents {
   }
 
   /// Returns the next event, or nullopt if none is left. Ends caused by the caller come first, as they were
-  /// at that moment; other events are recomputed, and dropped if earlier responses have invalidated them.
+  /// at that moment; others are described as their bodies are now, and dropped if earlier responses have
+  /// invalidated them.
   /// `is_there(id)` is true unless the body was removed, `sphere(number)` returns its present state, and
   /// `senses_in(event)` returns whose sensor the pair enters.
   template <class IsThere, class SphereNow, class SensesIn>
   std::optional<Event> pop(ContactGraph& graph, IsThere is_there, SphereNow sphere, SensesIn senses_in,
                            const std::optional<Box>& box) {
-    note_response(graph, sphere, box);
+    note_response(graph, sphere);
     std::optional<Event> event;
     if (!ended_.empty()) {
       event = ended_.extract(ended_.begin()).value();
@@ -87,8 +92,10 @@ class PendingEvents {
         const Sphere first = sphere(graph.number_of(event->first));
         if (event->kind == EventKind::sensor_enter) event->senses = senses_in(*event);
         if (event->kind == EventKind::sensor_leave) event->senses = senses_at_enter(graph, *event);
-        if (take_effect(graph, *event, first, alone ? first : sphere(graph.number_of(event->second)), box))
+        if (take_effect(graph, *event, first, alone ? first : sphere(graph.number_of(event->second)), box)) {
+          are_outdated_ = true;
           return event;
+        }
       } else if (!begins(event->kind) && event->kind != EventKind::zeno_guard) {
         return event;
       }
@@ -102,11 +109,11 @@ class PendingEvents {
   /// does this before it delivers another event. Call it before velocities change for another reason, and
   /// before bodies are recertified.
   template <class SphereNow>
-  void note_response(ContactGraph& graph, SphereNow sphere, const std::optional<Box>& box) {
+  void note_response(ContactGraph& graph, SphereNow sphere) {
     if (!delivered_) return;
     const Sphere first = sphere(graph.number_of(delivered_->first));
     const bool is_pair = delivered_->second != no_body;
-    note_response(graph, first, is_pair ? sphere(graph.number_of(delivered_->second)) : first, box);
+    note_response(graph, first, is_pair ? sphere(graph.number_of(delivered_->second)) : first);
   }
   /// Returns true if note_response() would look at a begin.
   bool awaits_response() const { return delivered_.has_value(); }
@@ -119,8 +126,9 @@ class PendingEvents {
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() const { return changed_; }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [pending, ended, zeno_guards, changed, delivered] = self;
+    auto& [pending, ended, zeno_guards, changed, delivered, are_outdated] = self;
     archive(pending, ended, zeno_guards, changed, delivered);
+    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(self)>>) are_outdated = true;
   }
   /// Validates events read from bytes, for a world of `bodies` bodies at `time`: true if every event could be
   /// queued now. `box` holds the existing walls; `is_known(id)` is true if an id was ever given out.
@@ -151,8 +159,7 @@ class PendingEvents {
   }
   static Senses senses_at_enter(const ContactGraph& graph, const Event& leave);
   void end(ContactGraph& graph, const Event& contact, ContactEvents wanted);
-  void note_response(ContactGraph& graph, const Sphere& first, const Sphere& second,
-                     const std::optional<Box>& box);
+  void note_response(ContactGraph& graph, const Sphere& first, const Sphere& second);
   bool take_effect(ContactGraph& graph, Event& event, const Sphere& first, const Sphere& second,
                    const std::optional<Box>& box);
 
@@ -161,6 +168,7 @@ class PendingEvents {
   std::set<Event, DeliveredBefore> delivered_guards_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
   std::optional<Event> delivered_;  ///< the last begin delivered, until the response to it is noted
+  bool are_outdated_ = true;        ///< bodies may have changed since the pending events were described
 };
 
 }  // namespace kinesphere

@@ -99,11 +99,10 @@ std::optional<Core::Certificate> Core::certificate_of(std::uint32_t number) cons
 }
 
 Result<void> Core::handle_next(Host& host) {
-  const DueQueue::Entry first = queue_.first(balls_.all(), balls_.time());
-  queue_.pop();
+  const std::uint32_t number = queue_.take_first();
   prefetch();
-  ScopeGuard again([&] { queue_.push(balls_.all(), first.ball); });
-  auto handled = handle(first.ball, host);
+  ScopeGuard again([&] { queue_.push(balls_.all(), number); });
+  auto handled = handle(number, host);
   if (handled) again.dismiss();
   return handled;
 }

@@ -6,7 +6,7 @@
 //
 //   H  The centre of a ball is in its safe region until Ball::own, and the ball meets no wall before.
 //   N  If the safe regions of two balls come within reach of each other, each is in the other's list, unless
-//      the two never have to do with each other (Host::may_meet()). A ball that never moves, a passive one,
+//      the two never have to do with each other (Host::keep_partners()). A ball that never moves, a passive one,
 //      has no list: it is in those of others.
 //   D  Of two neighbours, at least one has computed Ball::due since the velocity or the safe region of either
 //      last changed, and the two do not touch before it. No ball is due after its own time.
@@ -81,8 +81,8 @@ class Core {
 
   /// Returns when something is due next; infinity if that is later than `until`.
   double next_due(double until) { return queue_.first(balls_.all(), until).time; }
-  /// Handles what is due now. Precondition: next_due() is now. Errors: those of the reports; it is due again
-  /// then.
+  /// Handles what is due now. Precondition: next_due() has just returned now. Errors: those of the reports; it
+  /// is due again then.
   Result<void> handle_next(Host& host);
 
   /// Serializes what rebuild() cannot find again.
@@ -193,7 +193,10 @@ class Core {
   void compute_own_later(std::uint32_t number, Host& host);
   void compute_stay(std::uint32_t number);
   void limit_own(std::uint32_t number, double walls_until);
+  struct WayOut;
+  WayOut way_out(std::uint32_t number) const;
   double stays(std::uint32_t number) const;
+  bool stays_for(std::uint32_t number, double duration) const;
   double clear_of_walls(std::uint32_t number, Host& host) const;
   double clear_of_wall(std::uint32_t number, const HalfSpace& inside) const;
 

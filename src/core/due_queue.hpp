@@ -31,10 +31,12 @@ class DueQueue {
   void push(std::span<const Ball> balls, std::uint32_t ball);
   /// Returns the first entry, without taking it; one with an infinite time if there is none up to `until`.
   Entry first(std::span<const Ball> balls, double until);
-  /// Takes the entry that first() has returned.
-  void pop() {
+  /// Takes the entry that first() has returned just now. Returns its ball.
+  std::uint32_t take_first() {
+    const std::uint32_t ball = present_.back().ball;
     present_.pop_back();
     ++taken_;
+    return ball;
   }
   /// Returns a ball that is due soon after the first one, to prefetch; `none` if none is known.
   std::uint32_t coming(std::size_t ahead) const {

@@ -1,6 +1,7 @@
 // Host is the world around a core: it knows what two bodies that come near are to each other.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -18,8 +19,9 @@ class Host {
   /// Returns those with which the ball is linked: it touches or senses them. They concern it wherever they
   /// are, until the link ends. The result holds until the next call.
   virtual std::span<const std::uint32_t> linked_with(std::uint32_t ball) = 0;
-  /// Returns false if the two never have to do with each other.
-  virtual bool may_meet(std::uint32_t a, std::uint32_t b) = 0;
+  /// Moves those of `others` that may ever have to do with the ball to the front, in the same order. Returns
+  /// their number.
+  virtual std::size_t keep_partners(std::uint32_t ball, std::span<std::uint32_t> others) = 0;
   /// Returns a time before which nothing happens between two neighbours, from what is known of them; now if
   /// reports have to decide.
   virtual double unchanged_until(std::uint32_t a, std::uint32_t b) = 0;

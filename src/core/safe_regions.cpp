@@ -59,7 +59,7 @@ double Core::widest_region(const Ball& ball) const {
 Result<void> Core::leave_region(std::uint32_t number, Host& host) {
   Ball& ball = balls_[number];
   // The bound may be tighter than when `own` was computed.
-  if (stays(number) <= stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time())) {
+  if (!stays_for(number, stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time()))) {
     const double radius = double{ball.region} * unit_;
     const bool is_wide = balls_.growth(number) > growth_worth_a_report * radius;
     const bool is_far = norm_one(balls_.position(number) - ball.position) > longest_flight * radius;
@@ -176,8 +176,8 @@ void Core::find_neighbours(std::uint32_t number, Host& host) {
 void Core::join_lists(std::uint32_t number, Host& host) {
   cells_.finish_search(search_);
   ++host.work_counters().searches;
-  for (const std::uint32_t other : search_.found) {
-    if (balls_[other].is(Ball::passive) || !host.may_meet(number, other)) continue;
+  for (const std::uint32_t other : search_.found.first(host.keep_partners(number, search_.found))) {
+    if (balls_[other].is(Ball::passive)) continue;
     // One that arrives with it may have found it already.
     if (!lists_.contains(balls_[other].list, number)) lists_.add_to(balls_[other].list, number);
     settling_.push_back(other);
@@ -190,8 +190,9 @@ void Core::compare_neighbours(std::uint32_t number, Host& host) {
   std::size_t count = 0;
   for (const std::uint32_t other : search_.found) {
     search_.found[count] = other;
-    count += static_cast<std::size_t>(other != number && host.may_meet(number, other));
+    count += static_cast<std::size_t>(other != number);
   }
+  count = host.keep_partners(number, search_.found.first(count));
   find_changes(lists_.at(balls_[number].list), search_.found.first(count), gone_, new_);
   for (const std::uint32_t other : new_) prefetch_line(&balls_[other]);
   for (const auto* const others : {&gone_, &new_})

@@ -108,7 +108,12 @@ std::span<const std::uint32_t> EventProcessor::linked_with(std::uint32_t ball) {
   return partners_;
 }
 
-bool EventProcessor::may_meet(std::uint32_t a, std::uint32_t b) { return bodies().may_meet(a, b); }
+std::size_t EventProcessor::keep_partners(std::uint32_t ball, std::span<std::uint32_t> others) {
+  if (!bodies().filters.any()) return others.size();
+  const auto kept = std::remove_if(others.begin(), others.end(),
+                                   [&](std::uint32_t other) { return !bodies().may_meet(ball, other); });
+  return static_cast<std::size_t>(kept - others.begin());
+}
 
 double EventProcessor::unchanged_until(std::uint32_t a, std::uint32_t b) {
   if (const double known = known_.find(bodies(), a, b); known > time_) return known;

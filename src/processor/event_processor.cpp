@@ -144,6 +144,7 @@ Result<SpotChecks::Census> EventProcessor::spot_check_due(std::span<const std::u
 }
 
 void EventProcessor::invalidate(std::uint32_t number) {
+  events_.outdate();
   ++bodies()[number].revision;
   dirty_.add(bodies(), number);
 }
@@ -203,8 +204,7 @@ void EventProcessor::detach(std::uint32_t number) {
 }
 
 void EventProcessor::note_response() {
-  events_.note_response(
-      contacts(), [this](std::uint32_t number) { return sphere(number); }, bodies().walls());
+  events_.note_response(contacts(), [this](std::uint32_t number) { return sphere(number); });
 }
 
 void EventProcessor::recertify_changed() {

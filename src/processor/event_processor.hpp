@@ -207,7 +207,7 @@ class alignas(128) EventProcessor final : public core::Host {
   void note_link_change(std::uint32_t a, std::uint32_t b);
   double keep_time(std::uint32_t a, std::uint32_t b, const std::optional<double>& until, double end);
   std::span<const std::uint32_t> linked_with(std::uint32_t ball) override;
-  bool may_meet(std::uint32_t a, std::uint32_t b) override;
+  std::size_t keep_partners(std::uint32_t ball, std::span<std::uint32_t> others) override;
   double unchanged_until(std::uint32_t a, std::uint32_t b) override;
   Result<double> recheck(std::uint32_t a, std::uint32_t b) override;
   double walls_unchanged_until(std::uint32_t ball) override;

@@ -202,7 +202,7 @@ class BouncingBalls final : core::Host {
 
   // What the core asks. Walls count as a partner, core::none.
   std::span<const std::uint32_t> linked_with(std::uint32_t) override { return {}; }
-  bool may_meet(std::uint32_t, std::uint32_t) override { return true; }
+  std::size_t keep_partners(std::uint32_t, std::span<std::uint32_t> others) override { return others.size(); }
   double unchanged_until(std::uint32_t a, std::uint32_t b) override {
     if (const auto known = put_off_.find(std::minmax(a, b)); known != put_off_.end())
       if (known->second > core_.time()) return known->second;

@@ -140,7 +140,7 @@ TEST(DueQueue, GivesBallsInOrder) {
         } else {
           ASSERT_EQ(first.ball, expected.begin()->second) << "step " << step;
           ASSERT_EQ(first.time, expected.begin()->first) << "step " << step;
-          queue.pop();
+          queue.take_first();
           now = first.time;
           enter(first.ball);
         }
