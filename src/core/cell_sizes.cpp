@@ -14,6 +14,10 @@ namespace {
 constexpr double widest = 32.0;
 /// So many regions are to be in the cell of a region, with itself.
 constexpr double wanted_in_cell = 7.0;
+/// Chains that a small world may have, whose cells at the border are a large part of all.
+constexpr std::size_t chains_of_small_worlds = 8192;
+/// Returns how many chains a level of so many regions may have.
+constexpr std::size_t most_chains_of(std::size_t regions) { return 2 * regions + 512; }
 
 }  // namespace
 
@@ -145,11 +149,12 @@ void RegionCells::insert_all(Balls& balls) {
 /// unless there are too many of them.
 void RegionCells::choose_chains() {
   built_for_ = std::max<std::size_t>(regions_, 64);
-  const std::size_t most = std::max<std::size_t>(std::bit_ceil(built_for_) / 2, 8192);
+  const std::size_t most = std::max(std::bit_ceil(built_for_) / 2, chains_of_small_worlds);
   std::size_t taken = 0;
   for (Level& level : levels_) {
     const double cells = level.regions > 0 ? reserve_cells(level) : infinity;
-    level.shares = !(cells <= static_cast<double>(most - taken));
+    const std::size_t allowed = std::min(most - taken, most_chains_of(level.regions));
+    level.shares = !(cells <= static_cast<double>(allowed));
     if (level.shares) {
       level.axes[0].stride = 1;
       level.axes[1].stride = 0x9E3779B1U;
@@ -162,9 +167,10 @@ void RegionCells::choose_chains() {
       level.origin -= static_cast<std::uint32_t>(axis.reserved.first) * axis.stride;
     taken += static_cast<std::size_t>(cells);
   }
-  blocks_.clear();
-  balls_.clear();
-  links_.clear();
+  // There may have been many more.
+  blocks_ = std::vector<RegionBlock>();
+  balls_ = std::vector<BallBlock>();
+  links_ = std::vector<Link>();
   chains_ = static_cast<std::uint32_t>(std::max({taken, built_for_ / 8, std::size_t{64}}));
   mask_ = std::bit_ceil(chains_) - 1;
   add_blocks(chains_);

@@ -6,8 +6,8 @@
 //
 //   H  The centre of a ball is in its safe region until Ball::own, and the ball meets no wall before.
 //   N  If the safe regions of two balls come within reach of each other, each is in the other's list, unless
-//      the two never have to do with each other (Host::keep_partners()). A ball that never moves, a passive one,
-//      has no list: it is in those of others.
+//      the two never have to do with each other (Host::keep_partners()). A ball that never moves, a passive
+//      one, has no list: it is in those of others.
 //   D  Of two neighbours, at least one has computed Ball::due since the velocity or the safe region of either
 //      last changed, and the two do not touch before it. No ball is due after its own time.
 //
@@ -81,8 +81,8 @@ class Core {
 
   /// Returns when something is due next; infinity if that is later than `until`.
   double next_due(double until) { return queue_.first(balls_.all(), until).time; }
-  /// Handles what is due now. Precondition: next_due() has just returned now. Errors: those of the reports; it
-  /// is due again then.
+  /// Handles what is due now. Precondition: next_due() has just returned now. Errors: those of the reports;
+  /// it is due again then.
   Result<void> handle_next(Host& host);
 
   /// Serializes what rebuild() cannot find again.

@@ -66,10 +66,10 @@ double Core::clear_of_walls(std::uint32_t number, Host& host) const {
   return std::max(rounding::sum_down(balls_.time(), clear), balls_.time());
 }
 
-/// The way of a bound out of its safe region, from now on: the bound is a ball around q + v t that grows; q is
-/// seen from the middle of the region. What a planned acceleration adds counts as growth. What is left to the
-/// border of the region, which is `room` less the growth and |q + v t|, is a concave function of t. So if it is
-/// positive at both ends of a span, it is positive throughout.
+/// The way of a bound out of its safe region, from now on: the bound is a ball around q + v t that grows; q
+/// is seen from the middle of the region. What a planned acceleration adds counts as growth. What is left to
+/// the border of the region, which is `room` less the growth and |q + v t|, is a concave function of t. So if
+/// it is positive at both ends of a span, it is positive throughout.
 struct Core::WayOut {
   double qq, qv, vv;  ///< q q, q v, v v
   double room, rate, limit;

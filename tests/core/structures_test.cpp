@@ -241,6 +241,29 @@ TEST(RegionCells, TellThatARegionMayBeFoundTwice) {
   EXPECT_GT(repeats, 0U);
 }
 
+/// In a small world, too, each cell has a chain of its own, although those at the border are most of all: the
+/// regions of other cells are not looked at.
+TEST(RegionCells, DoNotShareChainsInASmallWorld) {
+  constexpr std::uint32_t count = 1000;
+  RegionCells cells({}, 3);
+  Balls balls(Periods{}, 0.0);
+  balls.grow(count);
+  Random random(15);
+  for (std::uint32_t number = 0; number < count; ++number) {
+    for (float& coordinate : balls[number].centre) coordinate = static_cast<float>(random.uniform(0.0, 20.0));
+    cells.enter(balls, number, RegionCells::raised(1.0F));
+  }
+  cells.rebuild(balls);
+  core::RegionSearch search;
+  std::size_t blocks = 0;
+  for (std::uint32_t number = 0; number < count; ++number) {
+    cells.search(balls[number], RegionCells::raised(1.0F), search);
+    EXPECT_FALSE(search.may_repeat) << "ball " << number;
+    blocks += search.count;
+  }
+  EXPECT_LT(blocks, 30 * count);
+}
+
 /// The lanes say what QuickReject says, with vectors of every width that this machine has.
 TEST(NearLanes, RejectWhatQuickRejectRejects) {
   const auto numbers = [](Random& random, int kind) {
