@@ -14,7 +14,7 @@ namespace {
 
 /// How far ahead of a ball its next safe region is centred, in radii of it. Larger values let fast balls stay
 /// longer in it, and those that are turned back leave it sooner.
-constexpr double ahead = 0.6;
+constexpr double ahead = 0.75;
 /// A ball that may leave its safe region reports first if its bound has grown by this part of the region.
 constexpr double growth_worth_a_report = 0.25;
 /// The largest radius of a safe region (region units), whose square is an ordinary number in single
