@@ -193,10 +193,7 @@ class Core {
   void compute_own_later(std::uint32_t number, Host& host);
   void compute_stay(std::uint32_t number);
   void limit_own(std::uint32_t number, double walls_until);
-  struct WayOut;
-  WayOut way_out(std::uint32_t number) const;
   double stays(std::uint32_t number) const;
-  bool stays_for(std::uint32_t number, double duration) const;
   double clear_of_walls(std::uint32_t number, Host& host) const;
   double clear_of_wall(std::uint32_t number, const HalfSpace& inside) const;
 

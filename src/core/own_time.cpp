@@ -66,81 +66,48 @@ double Core::clear_of_walls(std::uint32_t number, Host& host) const {
   return std::max(rounding::sum_down(balls_.time(), clear), balls_.time());
 }
 
-/// The way of a bound out of its safe region, from now on: the bound is a ball around q + v t that grows; q
-/// is seen from the middle of the region. What a planned acceleration adds counts as growth. What is left to
-/// the border of the region, which is `room` less the growth and |q + v t|, is a concave function of t. So if
-/// it is positive at both ends of a span, it is positive throughout.
-struct Core::WayOut {
-  double qq, qv, vv;  ///< q q, q v, v v
-  double room, rate, limit;
-  bool moves, is_inside;
-
-  bool grows() const { return rate > 0.0 || limit > 0.0; }
-  /// Of the slowest, squares underflow.
-  bool is_slow() const { return vv < 0x1p-800; }
-  /// Returns true if something is left after a time.
-  bool is_inside_after(double time) const {
-    const double left = room - (rate + 0.5 * limit * time) * time;
-    const double square = qq + (2.0 * qv + vv * time) * time;
-    const double rounding = 0x1p-48 * (qq + (2.0 * std::abs(qv) + vv * time) * time);
-    return left > 0.0 && square + rounding < left * left;
-  }
-  /// Guesses when nothing is left. Precondition: the bound moves or grows.
-  double guess() const;
-};
-
-double Core::WayOut::guess() const {
-  if (!grows()) {
-    const double root = std::sqrt(qv * qv + vv * (room * room - qq));
-    return (1.0 - 0x1p-30) * (qv > 0.0 ? (room * room - qq) / (root + qv) : (root - qv) / vv);
-  }
-  double guess = 2.0 * room / (rate + std::sqrt(rate * rate + 2.0 * limit * room));
-  // Its motion alone takes it out by then; what grows may be so little that squares of `guess` overflow.
-  if (moves) guess = std::min(guess, (room + std::sqrt(qq)) / std::sqrt(vv));
-  for (int step = 0; step < 3; ++step) {
-    const double distance = std::sqrt(std::max(qq + (2.0 * qv + vv * guess) * guess, 0x1p-900));
-    const double left = room - (rate + 0.5 * limit * guess) * guess - distance;
-    guess += left / (rate + limit * guess + (qv + vv * guess) / distance);
-  }
-  return guess * (1.0 - 0x1p-7);
-}
-
-Core::WayOut Core::way_out(std::uint32_t number) const {
+/// Returns a time for which the centre stays in the safe region from now on.
+///
+/// Ahead of now, the bound is a ball around q + v t that grows; q is seen from the middle of the region. What
+/// a planned acceleration adds counts as growth. The way that is left to the border of the region, which is
+/// its radius less the growth and |q + v t|, is a concave function of t. So if it is positive at both ends of
+/// a span, it is positive throughout: a time is guessed by Newton's method, and then tried.
+double Core::stays(std::uint32_t number) const {
   const Ball& ball = balls_[number];
   const Vec3 q = balls_.position(number) - region_centre(ball), v = balls_.velocity(number);
-  const double room = double{ball.region} * unit_ - margin_ - balls_.growth(number), qq = norm_squared(q);
-  return {.qq = qq,
-          .qv = dot(q, v),
-          .vv = norm_squared(v),
-          .room = room,
-          .rate = balls_.growth_speed(number),
-          .limit = ball.acceleration_limit + norm_one(balls_.plan(number)),
-          .moves = v != Vec3{},
-          .is_inside = room > 0.0 && qq < room * room};
-}
-
-/// Returns a time for which the centre stays in the safe region from now on: one that is guessed, and then
-/// tried.
-double Core::stays(std::uint32_t number) const {
-  if (balls_[number].is(Ball::passive)) return infinity;
-  const WayOut way = way_out(number);
-  if (!way.is_inside) return 0.0;
-  if (!way.moves && !way.grows()) return infinity;
-  if (way.is_slow())
-    return rounding::first_crossing(way.room - (1.0 + 0x1p-40) * std::sqrt(way.qq),
-                                    -(norm_one(balls_.velocity(number)) + way.rate), -way.limit);
-  double guess = way.guess();
-  for (int tries = 0; tries < 64; ++tries, guess *= 0.75)
-    if (way.is_inside_after(guess)) return guess;
+  const double rate = balls_.growth_speed(number),
+               limit = ball.acceleration_limit + norm_one(balls_.plan(number));
+  if (ball.is(Ball::passive)) return infinity;
+  const double room = double{ball.region} * unit_ - margin_ - balls_.growth(number);
+  const double qq = norm_squared(q), qv = dot(q, v), vv = norm_squared(v);
+  const bool moves = v != Vec3{}, grows = rate > 0.0 || limit > 0.0;
+  if (!(room > 0.0) || !(qq < room * room)) return 0.0;
+  if (!moves && !grows) return infinity;
+  // Of the slowest, squares underflow.
+  if (vv < 0x1p-800)
+    return rounding::first_crossing(room - (1.0 + 0x1p-40) * std::sqrt(qq), -(norm_one(v) + rate), -limit);
+  double guess;
+  if (grows) {
+    guess = 2.0 * room / (rate + std::sqrt(rate * rate + 2.0 * limit * room));
+    // Its motion alone takes it out by then; what grows may be so little that squares of `guess` overflow.
+    if (moves) guess = std::min(guess, (room + std::sqrt(qq)) / std::sqrt(vv));
+    for (int step = 0; step < 3; ++step) {
+      const double distance = std::sqrt(std::max(qq + (2.0 * qv + vv * guess) * guess, 0x1p-900));
+      const double left = room - (rate + 0.5 * limit * guess) * guess - distance;
+      guess += left / (rate + limit * guess + (qv + vv * guess) / distance);
+    }
+    guess *= 1.0 - 0x1p-7;
+  } else {
+    const double root = std::sqrt(qv * qv + vv * (room * room - qq));
+    guess = (1.0 - 0x1p-30) * (qv > 0.0 ? (room * room - qq) / (root + qv) : (root - qv) / vv);
+  }
+  for (int tries = 0; tries < 64; ++tries, guess *= 0.75) {
+    const double left = room - (rate + 0.5 * limit * guess) * guess;
+    const double square = qq + (2.0 * qv + vv * guess) * guess;
+    const double rounding = 0x1p-48 * (qq + (2.0 * std::abs(qv) + vv * guess) * guess);
+    if (left > 0.0 && square + rounding < left * left) return guess;
+  }
   return 0.0;
-}
-
-/// Returns true if the centre certainly stays in the safe region for this time from now on.
-bool Core::stays_for(std::uint32_t number, double duration) const {
-  if (balls_[number].is(Ball::passive)) return true;
-  const WayOut way = way_out(number);
-  if (way.is_slow()) return stays(number) > duration;
-  return way.is_inside && way.is_inside_after(duration);
 }
 
 /// Returns a time for which the ball does not touch this wall; 0 if it may do so now.

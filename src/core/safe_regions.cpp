@@ -59,8 +59,7 @@ double Core::widest_region(const Ball& ball) const {
 Result<void> Core::leave_region(std::uint32_t number, Host& host) {
   Ball& ball = balls_[number];
   // The bound may be tighter than when `own` was computed.
-  if (!stays_for(number,
-                 stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time()))) {
+  if (stays(number) <= stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time())) {
     const double radius = double{ball.region} * unit_;
     const bool is_wide = balls_.growth(number) > growth_worth_a_report * radius;
     const bool is_far = norm_one(balls_.position(number) - ball.position) > longest_flight * radius;
