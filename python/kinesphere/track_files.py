@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import csv
+import json
 import os
-import re
 import tempfile
 from pathlib import Path
 from typing import Any, Literal, Optional, Sequence, Union
@@ -35,7 +35,8 @@ def tracks_in(
     duplicates: Literal["fail", "first", "mean"] = "fail",
     max_speed: Optional[float] = None,
     max_gap: Optional[float] = None,
-    interpolate: Literal["spline", "linear"] = "spline",
+    plan: bool = False,
+    interpolate: Optional[Literal["spline", "linear"]] = None,
     tolerance: Optional[float] = None,
     sizes: bool = False,
     from_: Union[float, str, None] = None,
@@ -60,11 +61,17 @@ def tracks_in(
     dates: what 03/04/2025 begins with. frame_rate: frames per second. time_unit, unit: of numbers whose column
     does not say it. positions: what x and y are: "plane", "lonlat", or a zone as "utm:33N". altitude: which one
     is the height of aircraft in messages.
+    plan: rows are waypoints, between which ways go straight on however far apart these are. interpolate: "spline",
+    or in a plan "linear", when not given.
     All others are the options of the program of that name (docs/tracks.md).
     program: where it is, if not in PATH.
 
     Ids are texts. Times are numbers of the file's unit, or datetime64 (in UTC where the file says a zone);
     frames are seconds since frame 0. Positions are those of the file, with NaN as z of motion in a plane.
+
+    The result's summary is what `kinesphere tracks --summary` writes: what was read, and what was not looked at, as
+    "not_looked_at_s" of the seconds "together_s" that pairs are there together, "pairs_never_looked_at" and
+    "ids_without_track". A warning tells it where it is much, or where no approach is found.
 
     Raises InvalidValue with the program's question or error, FileNotFoundError without the program; what the
     program warns about becomes a warning.
@@ -77,18 +84,18 @@ def tracks_in(
         "format": format, "columns": columns, "where": where, "dates": dates, "frame_rate": frame_rate,
         "time_unit": time_unit, "unit": unit, "positions": positions, "projection": projection,
         "altitude": altitude, "missing": missing, "duplicates": duplicates, "max_speed": max_speed,
-        "max_gap": max_gap, "interpolate": interpolate, "tolerance": tolerance, "sizes": sizes,
+        "max_gap": max_gap, "plan": plan, "interpolate": interpolate, "tolerance": tolerance, "sizes": sizes,
         "from": from_, "until": until, "only": ids, "min_duration": min_duration,
         "distance": distance, "separation": separation,
     }  # fmt: skip
     with tempfile.TemporaryDirectory() as folder:
-        table = Path(folder) / "approaches.csv"
-        options["contacts"] = table
-        printed = run_program("tracks_in", program, "tracks", options, names, argument="files")
+        table, written = Path(folder) / "approaches.csv", Path(folder) / "summary.json"
+        options |= {"contacts": table, "summary": written, "quiet": True}
+        run_program("tracks_in", program, "tracks", options, names, argument="files")
         with table.open(newline="") as lines:
             rows = list(csv.DictReader(lines))
-    probes = re.search(r"^probes +([\d,]+)", printed, re.MULTILINE)
-    return Approaches(_array_of(rows), int(probes[1].replace(",", "")) if probes else 0)
+        summary = json.loads(written.read_text())
+    return Approaches(_array_of(rows), summary["probes"], summary)
 
 
 def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:

@@ -81,3 +81,23 @@ def test_questions_are_errors_and_warnings_are_warnings(tmp_path: Path) -> None:
         ks.tracks_in(half, 1, missing="skip", program=program)
     with pytest.raises(FileNotFoundError):
         ks.tracks_in(half, 1, program=tmp_path / "none")
+
+
+def test_what_was_not_looked_at_is_a_warning_and_in_the_summary(tmp_path: Path) -> None:
+    rows = [(0, 0, 50), (10, 10, 40), (20, 20, 30), (80, 80, -30), (90, 90, -40)]
+    plans = written(
+        tmp_path, "id,time,x,y\n" + "".join(f"a,{t},{x},0\nb,{t},50,{y}\n" for t, x, y in rows) + "c,30,0,0\n"
+    )
+    with pytest.warns(UserWarning) as warned:
+        found = ks.tracks_in(plans, 5, program=program)
+    said = [str(one.message) for one in warned]
+    assert any("not looked for in 60 s of the 90 s" in text for text in said), said
+    assert any("have no track" in text and "'c'" in text for text in said), said
+    assert found.summary is not None
+    assert (len(found), found.summary["not_looked_at_s"], found.summary["together_s"]) == (0, 60, 90)
+    assert (found.summary["pairs"], found.summary["pairs_never_looked_at"]) == (3, 2)
+    assert found[:0].summary == found.summary
+    with pytest.warns(UserWarning, match="have no track"):
+        flown = ks.tracks_in(plans, 5, plan=True, program=program)
+    assert flown["closest_time"][0] == pytest.approx(50)
+    assert flown.summary is not None and flown.summary["not_looked_at_s"] == 0

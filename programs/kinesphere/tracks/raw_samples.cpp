@@ -105,7 +105,8 @@ class RawTrackSet::FileReader final : public ReportSink {
       throw WrongInput(report.row->wrong_text(missing.column, fmt::format("a number as {}", missing.what)) +
                        " (see --missing)");
     track_set_.count(track_set_.counts_.missing, place_);
-    if (time && policy == MissingPolicy::split) track.breaks.push_back({time->time, place_});
+    ++track.placeless;
+    if (time && policy == MissingPolicy::split) track.timed_placeless.push_back({time->time, place_});
   }
   void time_is(const FileTime&, TimeKind) override {}
   void pass_over(Passed reason) override {
@@ -226,10 +227,13 @@ class RawTrackSet::FileReader final : public ReportSink {
     for (RawTrack& track : track_set_.tracks_) {
       for (RawSample& sample : track.samples) {
         if (!std::isnan(sample.position.z)) continue;
-        if (has_heights_)
+        if (has_heights_) {
           track_set_.count(track_set_.counts_.missing, sample.place);
-        else
+          ++track.placeless;
+          track.timed_placeless.push_back({sample.time, sample.place});
+        } else {
           sample.position.z = 0.0;
+        }
       }
       std::erase_if(track.samples, [](const RawSample& sample) { return std::isnan(sample.position.z); });
     }

@@ -37,12 +37,14 @@ struct RawTrack {
   double radius = 0.0;             ///< of a disc that covers the body (metres); 0 where no size is known
   std::size_t forward = 0, backward = 0;  ///< rows that are later, or earlier, than the row before
   Place first_backward;                   ///< row
-  /// Times at which the track does not go on (MissingPolicy::split).
-  struct Break {
+  std::size_t placeless = 0;              ///< rows and messages that have no time or no position
+  /// A row without a position whose time counts. Times of rows that MissingPolicy::skip leaves out do not: a
+  /// receiver without a fix may write any.
+  struct Placeless {
     FileTime time;
     Place place;
   };
-  std::vector<Break> breaks;
+  std::vector<Placeless> timed_placeless;
 };
 
 class RawTrackSet {

@@ -43,13 +43,19 @@ CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& fi
                   "interval of that id when not given")
       ->check(finite_number())
       ->group(input_group);
+  command
+      .add_flag(
+          "--plan", options.is_plan,
+          "Rows are waypoints of plans: however far apart, the way goes straight on from one to the next")
+      ->group(input_group);
   return file_option;
 }
 
 void add_interpolation_option(CLI::App& command, TrackOptions& options) {
-  add_choice(command, "--interpolate", options.interpolation,
-             {{"spline", Interpolation::spline}, {"linear", Interpolation::linear}}, "spline",
-             "The motion between two samples");
+  add_choice<std::optional<Interpolation>>(
+      command, "--interpolate", options.interpolation,
+      {{"spline", Interpolation::spline}, {"linear", Interpolation::linear}}, "spline",
+      "The motion between two samples; with --plan linear");
 }
 
 std::string given_reading_option(const CLI::App& command) {

@@ -33,7 +33,13 @@ struct TrackOptions : FormatChoices {
   /// Seconds. A longer time between two samples of one id splits it into two tracks. Default: 2.5 times the
   /// median time between samples of that id, or of all ids if it has fewer than 4 samples.
   std::optional<double> max_gap;
-  Interpolation interpolation = Interpolation::spline;
+  /// The rows are waypoints of plans: however far apart, the way goes on from one to the next.
+  bool is_plan = false;
+  std::optional<Interpolation> interpolation;  ///< Default: straight on in a plan, else a spline
+
+  Interpolation chosen_interpolation() const {
+    return interpolation.value_or(is_plan ? Interpolation::linear : Interpolation::spline);
+  }
 };
 
 }  // namespace kinesphere::program

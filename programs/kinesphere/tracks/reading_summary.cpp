@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracks/coverage_summary.hpp"
+
 namespace kinesphere::program {
 namespace {
 
@@ -32,9 +34,11 @@ std::string unused_text(const TrackSet& track_set) {
 }
 
 std::string gap_text(const TrackSet& track_set) {
+  if (std::isinf(track_set.smallest_max_gap)) return "not cut at gaps";
   const std::string smallest = number(track_set.smallest_max_gap);
   const std::string largest = number(track_set.largest_max_gap);
-  return smallest == largest ? smallest + " s" : fmt::format("{} s to {} s, by id", smallest, largest);
+  return smallest == largest ? fmt::format("cut at gaps over {} s", smallest)
+                             : fmt::format("cut at gaps over {} s to {} s, by id", smallest, largest);
 }
 
 std::string first_places(const Tally& tally) {
@@ -49,14 +53,14 @@ void add_tally(Summary& summary, const std::string& label, const Tally& tally) {
 }  // namespace
 
 void add_track_set(Summary& summary, const std::vector<std::string>& files, const TrackSet& track_set,
-                   const TrackScene& scene) {
+                   const TrackScene& scene, const Coverage& coverage) {
   summary.row(files.size() == 1 ? "file" : "files", fmt::format("{}", fmt::join(files, ", ")));
   summary.row("format", format_text(track_set));
   if (!track_set.unused.empty()) summary.row("not used", unused_text(track_set));
   if (const std::string projection = track_set.coordinates.description(); !projection.empty())
     summary.row("projection", projection);
   summary.row("tracks", grouped(track_set.tracks.size()),
-              fmt::format("of {} ids, cut at gaps over {}", grouped(track_set.ids), gap_text(track_set)));
+              fmt::format("of {} ids, {}", grouped(track_set.presences.size()), gap_text(track_set)));
   summary.row(
       "samples", grouped(track_set.samples),
       fmt::format("every {} s, of {} rows", number(track_set.sample_interval), grouped(track_set.rows)));
@@ -83,6 +87,7 @@ void add_track_set(Summary& summary, const std::vector<std::string>& files, cons
         fmt::format("samples between two gaps, left out: {} of the rows",
                     percent(static_cast<double>(track_set.left_out), static_cast<double>(track_set.rows))));
   }
+  add_coverage(summary, coverage, track_set);
   const Scene& run = scene.scene;
   summary.row("span", fmt::format("{} s", number(run.end_time - run.world.start_time)),
               fmt::format("from {} to {}", track_set.times.text(run.world.start_time),

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "base/input_file.hpp"
@@ -185,7 +186,8 @@ struct Body {
   std::string id;
   double radius;
   std::vector<Piece> pieces;
-  std::vector<double> breaks;
+  std::vector<double> placeless;  ///< times of rows without a position, in order
+  Presence presence;              ///< without what became tracks
 };
 
 class Reading {
@@ -203,7 +205,6 @@ class Reading {
     track_set_.has_heights = raw.columns().z().has_value();
     track_set_.is_plane = !raw.columns().z() && track_set_.coordinates.are_plane();
     if (track_set_.times.kind() == TimeKind::frames) track_set_.frame_rate = track_set_.times.rate();
-    track_set_.ids = raw.tracks().size();
     track_set_.filter = raw.columns().where;
     for (const std::size_t column : raw.columns().unused)
       track_set_.unused.push_back(raw.head().names.empty() ? fmt::format("{}", column + 1)
@@ -225,7 +226,7 @@ class Reading {
 
  private:
   Body cleaned(const RawTrack& track) {
-    Body body{track.id, track.radius, {}, {}};
+    Body body{.id = track.id, .radius = track.radius};
     Piece samples;
     samples.reserve(track.samples.size());
     for (const RawSample& sample : track.samples) {
@@ -234,18 +235,34 @@ class Reading {
            sample.place});
     }
     leave_one_at_each_time(samples, track.id, options_.duplicates, raw_, track_set_.duplicates);
+    body.presence = presence_of(track, samples);
     if (options_.max_speed) {
       body.pieces = split_by_speed(samples, *options_.max_speed, raw_, track_set_.too_fast);
     } else {
       body.pieces.push_back(std::move(samples));
     }
-    for (const RawTrack::Break& at : track.breaks) body.breaks.push_back(track_set_.times.seconds(at.time));
-    std::sort(body.breaks.begin(), body.breaks.end());
+    for (const RawTrack::Placeless& at : track.timed_placeless)
+      body.placeless.push_back(track_set_.times.seconds(at.time));
+    std::sort(body.placeless.begin(), body.placeless.end());
     return body;
+  }
+
+  Presence presence_of(const RawTrack& track, const Piece& samples) const {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    Presence presence{
+        .id = track.id, .first = never, .last = -never, .samples = track.placeless + samples.size()};
+    const auto add = [&](double time) {
+      presence.first = std::min(presence.first, time);
+      presence.last = std::max(presence.last, time);
+    };
+    for (const PlacedSample& sample : samples) add(sample.sample.time);
+    for (const RawTrack::Placeless& row : track.timed_placeless) add(track_set_.times.seconds(row.time));
+    return presence;
   }
 
   /// Fewer than 3 intervals give no reliable median.
   double max_gap_of(const Body& body) const {
+    if (options_.is_plan) return std::numeric_limits<double>::infinity();
     if (options_.max_gap) return *options_.max_gap;
     std::vector<double> intervals;
     for (const Piece& piece : body.pieces) add_intervals(piece, intervals);
@@ -256,13 +273,19 @@ class Reading {
     const double max_gap = max_gap_of(body);
     track_set_.smallest_max_gap = std::min(track_set_.smallest_max_gap, max_gap);
     track_set_.largest_max_gap = std::max(track_set_.largest_max_gap, max_gap);
+    Presence& presence = track_set_.presences.emplace_back(body.presence);
+    presence.first_track = track_set_.tracks.size();
+    const std::span<const double> breaks =
+        options_.missing == MissingPolicy::split ? body.placeless : std::span<const double>();
     for (const Piece& whole : body.pieces) {
-      for (const Piece& piece : split_at_gaps(whole, max_gap, body.breaks)) {
+      for (const Piece& piece : split_at_gaps(whole, max_gap, breaks)) {
         if (piece.size() == 1) {
           ++track_set_.left_out;
           continue;
         }
         track_set_.samples += piece.size();
+        presence.used += piece.size();
+        ++presence.tracks;
         RecordedTrack& track = track_set_.tracks.emplace_back();
         track.id = body.id;
         track.radius = body.radius;
@@ -280,6 +303,8 @@ class Reading {
 void check(const TrackOptions& options) {
   if (options.max_gap && !(*options.max_gap >= 0))
     throw ProgramError(fmt::format("--max-gap: expected a number >= 0, but got {}", *options.max_gap));
+  if (options.max_gap && options.is_plan)
+    throw ProgramError("--max-gap: expected none with --plan, whose ways have no gaps");
   if (options.max_speed && !(*options.max_speed > 0))
     throw ProgramError(fmt::format("--max-speed: expected a number > 0, but got {}", *options.max_speed));
 }
@@ -315,8 +340,8 @@ TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options)
                                      fmt::join(files, ", "),
                                      track_set.times.text(track_set.times.seconds(*time))));
     throw ProgramError(
-        fmt::format("{}: expected an id with two samples at most {} s apart, but there is none",
-                    fmt::join(files, ", "), track_set.largest_max_gap));
+        fmt::format("{}: expected an id with two samples{}, but there is none", fmt::join(files, ", "),
+                    options.is_plan ? "" : fmt::format(" at most {} s apart", track_set.largest_max_gap)));
   }
   return track_set;
 }

@@ -18,6 +18,17 @@ struct RecordedTrack {
   double radius = 0.0;               ///< of a disc or sphere around the body; 0 for a point
 };
 
+/// What is known of an id, and how much of it became tracks.
+struct Presence {
+  std::string id;
+  /// Seconds: from its first to its last row whose time is known, whatever becomes of these; first > last if
+  /// there is none.
+  double first = 0.0, last = 0.0;
+  std::size_t samples = 0;                  ///< at different times, and rows without a time or a position
+  std::size_t used = 0;                     ///< samples in tracks
+  std::size_t first_track = 0, tracks = 0;  ///< its tracks follow each other
+};
+
 /// Count of dropped items, and where the first ones stand.
 struct Tally {
   std::size_t count = 0;
@@ -47,14 +58,14 @@ struct TrackSet : ReadCounts {
   bool has_sizes = false;             ///< sizes were asked for
   bool is_plane = false;              ///< nothing leaves the plane z = 0
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
-  std::size_t ids = 0;
-  std::string filter;               ///< the rows that count (--where); empty for all
-  std::vector<std::string> unused;  ///< names, or numbers from 1, of columns that are not read
-  std::size_t samples = 0;          ///< in all tracks
-  std::size_t left_out = 0;         ///< samples that were alone between two gaps
-  Tally duplicates;                 ///< samples of an id that already has one at that time
-  Tally too_fast;                   ///< samples that --max-speed left out
-  double sample_interval = 0;       ///< the median, over all ids
+  std::vector<Presence> presences;    ///< one for each id, in the order of the tracks
+  std::string filter;                 ///< the rows that count (--where); empty for all
+  std::vector<std::string> unused;    ///< names, or numbers from 1, of columns that are not read
+  std::size_t samples = 0;            ///< in all tracks
+  std::size_t left_out = 0;           ///< samples that were alone between two gaps
+  Tally duplicates;                   ///< samples of an id that already has one at that time
+  Tally too_fast;                     ///< samples that --max-speed left out
+  double sample_interval = 0;         ///< the median, over all ids
   /// The smallest and the largest gap limit of the ids, in seconds; a longer time between two samples cuts a
   /// track.
   double smallest_max_gap = 0, largest_max_gap = 0;

@@ -184,9 +184,10 @@ TEST(SeveralBodies, OfOneIdInTwoFilesAreAskedAbout) {
   TrackOptions apart;
   apart.hints.columns = "id=@file,time=time,x=x,y=y";
   EXPECT_EQ(both(apart).tracks.size(), 2u);
-  EXPECT_EQ(both(with("id != none")).ids, 1u);
-  EXPECT_EQ(parse_tracks({file("a.csv", 0), file("b.csv", 10)}, {}).ids, 1u) << "the second goes on";
-  EXPECT_EQ(parse_tracks({file("a.csv", 0, "mmsi"), file("b.csv", 0.5, "mmsi")}, {}).ids, 1u)
+  EXPECT_EQ(both(with("id != none")).presences.size(), 1u);
+  EXPECT_EQ(parse_tracks({file("a.csv", 0), file("b.csv", 10)}, {}).presences.size(), 1u)
+      << "the second goes on";
+  EXPECT_EQ(parse_tracks({file("a.csv", 0, "mmsi"), file("b.csv", 0.5, "mmsi")}, {}).presences.size(), 1u)
       << "two stations hear one ship";
 }
 

@@ -1,0 +1,22 @@
+// Says what of a recording was not looked at.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenes/summary.hpp"
+#include "tracks/coverage.hpp"
+
+namespace kinesphere::program {
+
+/// Adds rows for what was not looked at; none if there is nothing.
+void add_coverage(Summary& summary, const Coverage& coverage, const TrackSet& track_set);
+
+/// Returns warnings, one line each: ids without a track, pairs that were never looked at, and time that was
+/// not, if it is much or if `found_none`, so that "none" is never said without it.
+std::vector<std::string> warnings_of(const Coverage& coverage, const TrackSet& track_set, bool found_none);
+
+/// Returns members of a JSON object, without its braces.
+std::string json_members_of(const Coverage& coverage, const TrackSet& track_set);
+
+}  // namespace kinesphere::program
