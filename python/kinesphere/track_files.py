@@ -37,6 +37,7 @@ def tracks_in(
     max_gap: Optional[float] = None,
     plan: bool = False,
     interpolate: Optional[Literal["spline", "linear"]] = None,
+    outside: Literal["vanish", "stay", "go-on"] = "vanish",
     tolerance: Optional[float] = None,
     sizes: bool = False,
     from_: Union[float, str, None] = None,
@@ -62,7 +63,8 @@ def tracks_in(
     does not say it. positions: what x and y are: "plane", "lonlat", or a zone as "utm:33N". altitude: which one
     is the height of aircraft in messages.
     plan: rows are waypoints, between which ways go straight on however far apart these are. interpolate: "spline",
-    or in a plan "linear", when not given.
+    or in a plan "linear", when not given. outside: before its first and after its last sample a body is not there, stays
+    at that sample, or goes straight on.
     All others are the options of the program of that name (docs/tracks.md).
     program: where it is, if not in PATH.
 
@@ -84,7 +86,7 @@ def tracks_in(
         "format": format, "columns": columns, "where": where, "dates": dates, "frame_rate": frame_rate,
         "time_unit": time_unit, "unit": unit, "positions": positions, "projection": projection,
         "altitude": altitude, "missing": missing, "duplicates": duplicates, "max_speed": max_speed,
-        "max_gap": max_gap, "plan": plan, "interpolate": interpolate, "tolerance": tolerance, "sizes": sizes,
+        "max_gap": max_gap, "plan": plan, "interpolate": interpolate, "outside": outside, "tolerance": tolerance, "sizes": sizes,
         "from": from_, "until": until, "only": ids, "min_duration": min_duration,
         "distance": distance, "separation": separation,
     }  # fmt: skip

@@ -326,6 +326,31 @@ def test_recorded_tracks() -> None:
         ks.RecordedTracks([([0.0, 1.0],)])  # type: ignore[list-item]
 
 
+def test_recorded_tracks_outside_of_their_samples() -> None:
+    samples = [([0, 1, 2], [[0, 0, 0], [3, 0, 0], [4, 0, 0]])]
+    on = ks.RecordedTracks(samples).states(4.0)[0]
+    assert on[0] == pytest.approx(4 + 2 * on[3]) and on[3] > 0
+    stays = ks.RecordedTracks(samples, outside="stay")
+    assert stays.states(9.0)[0] == pytest.approx([4, 0, 0, 0, 0, 0], abs=1e-12)
+    assert stays.states(-9.0)[0] == pytest.approx([0, 0, 0, 0, 0, 0], abs=1e-12)
+    vanishes = copy.copy(ks.RecordedTracks(samples, outside="vanish"))
+    assert vanishes.span(0) == (0.0, 2.0)
+    assert vanishes.states(2.0)[0][0] == pytest.approx(4)
+    with pytest.raises(
+        ks.InvalidValue, match="must not lie after its last sample, because it has vanished"
+    ) as error:
+        vanishes.states(2.5)
+    assert error.value.code == "out_of_range"
+    with pytest.raises(ks.InvalidValue, match="'go-on', 'stay' or 'vanish'"):
+        ks.RecordedTracks(samples, outside="leave")  # type: ignore[arg-type]
+    world = ks.World()
+    world.add_motion(vanishes, radii=0.5)
+    world.add((9, 0, 0), radius=0.5)
+    assert len(world.run(2.0, vanishes)) == 0
+    with pytest.raises(ks.InvalidValue, match="has vanished"):
+        world.run(9.0, vanishes)
+
+
 def test_a_motion_is_added_where_its_numbers_are_ids() -> None:
     world, motion = pair()
     with pytest.raises(ks.InvalidValue, match="without bodies"):

@@ -101,3 +101,14 @@ def test_what_was_not_looked_at_is_a_warning_and_in_the_summary(tmp_path: Path) 
         flown = ks.tracks_in(plans, 5, plan=True, program=program)
     assert flown["closest_time"][0] == pytest.approx(50)
     assert flown.summary is not None and flown.summary["not_looked_at_s"] == 0
+
+
+def test_a_body_that_stays_after_its_last_sample(tmp_path: Path) -> None:
+    rows = "".join(f"hover,{t},50,0\n" for t in range(5)) + "".join(
+        f"pass,{t},{2 * t},1\n" for t in range(50)
+    )
+    file = written(tmp_path, "id,t,x,y\n" + rows)
+    with pytest.warns(UserWarning, match="'hover' vanishes at 4, 'pass' 1 from there at 25"):
+        found = ks.tracks_in(file, 1.5, program=program)
+    assert len(found) == 0 and found.summary is not None and found.summary["near_ends"] == 1
+    assert ks.tracks_in(file, 1.5, outside="stay", program=program)["closest_time"][0] == pytest.approx(25)

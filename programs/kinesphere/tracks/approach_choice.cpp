@@ -29,10 +29,10 @@ double window_time(const std::string& text, std::string_view option, const Track
 
 TimeWindow span_of(const TrackSet& track_set) {
   const RecordedTrack& any = track_set.tracks.front();
-  TimeWindow span{any.samples.front().time, any.samples.back().time};
+  TimeWindow span{any.from(), any.until()};
   for (const RecordedTrack& track : track_set.tracks) {
-    span.from = std::min(span.from, track.samples.front().time);
-    span.until = std::max(span.until, track.samples.back().time);
+    span.from = std::min(span.from, track.from());
+    span.until = std::max(span.until, track.until());
   }
   return span;
 }

@@ -125,8 +125,8 @@ std::vector<PresentBody> bodies_of(const TrackSet& track_set, const ApproachFilt
       if (until_now < until) body.holes.push_back({until_now, until, is_chosen});
     };
     for (std::size_t k = 0; k < presence.tracks; ++k) {
-      const auto& samples = track_set.tracks[presence.first_track + k].samples;
-      const Stay track = cut(samples.front().time, samples.back().time, is_chosen);
+      const RecordedTrack& recorded = track_set.tracks[presence.first_track + k];
+      const Stay track = cut(recorded.from(), recorded.until(), is_chosen);
       if (!(track.from < track.until)) continue;
       add_hole(track.from);
       until_now = track.until;

@@ -46,6 +46,22 @@ std::string hole_text(const Hole& hole, const TrackSet& track_set) {
                      track_set.times.text(hole.until, 6));
 }
 
+std::string vanishing_text(const Vanishing& vanishing, const TrackSet& track_set) {
+  return fmt::format("'{}' {} {}, '{}' {} from there at {}", vanishing.id,
+                     vanishing.has_appeared ? "appears at" : "vanishes at",
+                     track_set.times.text(vanishing.time, 6), vanishing.other, number(vanishing.distance),
+                     track_set.times.text(vanishing.other_time, 6));
+}
+
+std::string vanishings_text(const std::vector<Vanishing>& vanishings, const TrackSet& track_set) {
+  constexpr std::size_t most = 2;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, vanishings.size()); ++k)
+    text += fmt::format("{}{}", k == 0 ? "" : "; ", vanishing_text(vanishings[k], track_set));
+  return vanishings.size() > most ? fmt::format("{}; and {} more", text, grouped(vanishings.size() - most))
+                                  : text;
+}
+
 template <class Items, class Text>
 std::string json_array(const Items& items, Text text) {
   std::string all;
@@ -77,6 +93,21 @@ void add_coverage(Summary& summary, const Coverage& coverage, const TrackSet& tr
     summary.row("pairs", grouped(coverage.pairs_never_looked_at),
                 fmt::format("of {} that are there together were never looked at: {}", grouped(coverage.pairs),
                             pairs_text(coverage)));
+}
+
+void add_vanishings(Summary& summary, const std::vector<Vanishing>& vanishings, const TrackSet& track_set) {
+  if (vanishings.empty()) return;
+  summary.row("outside", grouped(vanishings.size()),
+              fmt::format("first or last samples near which another is when their id is not there: {}",
+                          vanishings_text(vanishings, track_set)));
+}
+
+std::vector<std::string> warnings_of(const std::vector<Vanishing>& vanishings, const TrackSet& track_set) {
+  if (vanishings.empty()) return {};
+  return {
+      fmt::format("near {} first or last samples there is another body when their id is not there: {}: "
+                  "--outside stay or go-on looks for such approaches",
+                  grouped(vanishings.size()), vanishings_text(vanishings, track_set))};
 }
 
 std::vector<std::string> warnings_of(const Coverage& coverage, const TrackSet& track_set, bool found_none) {
@@ -116,6 +147,21 @@ std::string json_members_of(const Coverage& coverage, const TrackSet& track_set)
       json_array(coverage.without_track, json_id), json_array(coverage.thinned, json_of), coverage.pairs,
       coverage.pairs_never_looked_at, json_array(coverage.first_never_looked_at, json_pair),
       coverage.together, coverage.not_looked_at(), largest);
+}
+
+std::string json_members_of(const std::vector<Vanishing>& vanishings, const TrackSet& track_set) {
+  constexpr std::size_t most = 10;
+  const std::vector<Vanishing> first(
+      vanishings.begin(),
+      vanishings.begin() + static_cast<std::ptrdiff_t>(std::min(most, vanishings.size())));
+  return fmt::format(R"("near_ends": {}, "closest_near_ends": {})", vanishings.size(),
+                     json_array(first, [&](const Vanishing& each) {
+                       return fmt::format(
+                           R"({{"id": {}, "{}": {}, "other": {}, "other_at": {}, "distance": {}}})",
+                           json_text(each.id), each.has_appeared ? "appears" : "vanishes",
+                           json_of_time(track_set.times, each.time), json_text(each.other),
+                           json_of_time(track_set.times, each.other_time), each.distance);
+                     }));
 }
 
 }  // namespace kinesphere::program

@@ -5,6 +5,18 @@
 
 namespace kinesphere::program {
 
+std::string_view name_of(Outside outside) {
+  switch (outside) {
+    case Outside::vanish:
+      return "vanish";
+    case Outside::stay:
+      return "stay";
+    case Outside::go_on:
+      break;
+  }
+  return "go-on";
+}
+
 CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& files, TrackOptions& options) {
   command.footer(
       "Tables with separators ; , tab or blanks, quoted or not, with the usual column names: id (mmsi,\n"
@@ -51,11 +63,15 @@ CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& fi
   return file_option;
 }
 
-void add_interpolation_option(CLI::App& command, TrackOptions& options) {
+void add_motion_options(CLI::App& command, TrackOptions& options) {
   add_choice<std::optional<Interpolation>>(
       command, "--interpolate", options.interpolation,
       {{"spline", Interpolation::spline}, {"linear", Interpolation::linear}}, "spline",
       "The motion between two samples; with --plan linear");
+  add_choice(command, "--outside", options.outside,
+             {{"vanish", Outside::vanish}, {"stay", Outside::stay}, {"go-on", Outside::go_on}}, "vanish",
+             "Before its first and after its last sample a body is not there, stays at that sample, or goes "
+             "straight on");
 }
 
 std::string given_reading_option(const CLI::App& command) {

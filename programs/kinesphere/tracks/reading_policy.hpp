@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "formats/streams/report_format.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
@@ -24,6 +25,9 @@ enum class DuplicatePolicy {
   mean,   ///< the mean of their positions
 };
 
+/// Returns "vanish", "stay" or "go-on".
+std::string_view name_of(Outside outside);
+
 struct TrackOptions : FormatChoices {
   ProjectionChoice projection = ProjectionChoice::automatic;
   MissingPolicy missing = MissingPolicy::fail;
@@ -36,6 +40,8 @@ struct TrackOptions : FormatChoices {
   /// The rows are waypoints of plans: however far apart, the way goes on from one to the next.
   bool is_plan = false;
   std::optional<Interpolation> interpolation;  ///< Default: straight on in a plan, else a spline
+  /// Before the first and after the last sample of an id, within the recording.
+  Outside outside = Outside::vanish;
 
   Interpolation chosen_interpolation() const {
     return interpolation.value_or(is_plan ? Interpolation::linear : Interpolation::spline);

@@ -29,6 +29,8 @@ std::string summary_json(const std::vector<std::string>& files, const TrackSet& 
   text += fmt::format(
       R"(, "approaches": {}, "left_out_by_ids": {}, "left_out_by_duration": {}, "probes": {})",
       result.approaches.size(), result.left_out.by_ids, result.left_out.by_duration, result.probes);
+  text += fmt::format(R"(, "outside": "{}", {})", name_of(track_set.outside),
+                      json_members_of(result.vanishings, track_set));
   return text + fmt::format(", {}, \"hash\": \"{:016x}\"}}\n", json_members_of(result.coverage, track_set),
                             result.hash);
 }

@@ -9,6 +9,7 @@
 #include "tracks/coverage.hpp"
 #include "tracks/track_scene.hpp"
 #include "tracks/track_set.hpp"
+#include "tracks/vanishings.hpp"
 
 namespace kinesphere::program {
 
@@ -17,6 +18,7 @@ struct TracksResult {
   std::vector<Approach> approaches;
   LeftOut left_out;
   Coverage coverage;
+  std::vector<Vanishing> vanishings;
   std::uint64_t probes = 0;
   std::uint64_t hash = 0;
 };

@@ -160,8 +160,8 @@ std::optional<std::string> warning_of_radians(const RawTrackSet& raw) {
 std::optional<std::string> warning_about_lone_tracks(const TrackSet& track_set) {
   std::vector<const RecordedTrack*> tracks;
   for (const RecordedTrack& track : track_set.tracks) tracks.push_back(&track);
-  const auto begin = [](const RecordedTrack* track) { return track->samples.front().time; };
-  const auto end = [](const RecordedTrack* track) { return track->samples.back().time; };
+  const auto begin = [](const RecordedTrack* track) { return track->from(); };
+  const auto end = [](const RecordedTrack* track) { return track->until(); };
   std::sort(tracks.begin(), tracks.end(), [&](const auto* a, const auto* b) { return begin(a) < begin(b); });
   const RecordedTrack* other = nullptr;
   double last = -std::numeric_limits<double>::infinity();
@@ -206,6 +206,7 @@ class Reading {
     track_set_.is_plane = !raw.columns().z() && track_set_.coordinates.are_plane();
     if (track_set_.times.kind() == TimeKind::frames) track_set_.frame_rate = track_set_.times.rate();
     track_set_.filter = raw.columns().where;
+    track_set_.outside = options.outside;
     for (const std::size_t column : raw.columns().unused)
       track_set_.unused.push_back(raw.head().names.empty() ? fmt::format("{}", column + 1)
                                                            : raw.head().names[column]);
@@ -218,6 +219,11 @@ class Reading {
     for (const Body& body : bodies_)
       for (const Piece& piece : body.pieces) add_intervals(piece, intervals);
     track_set_.sample_interval = median_interval(std::move(intervals));
+    for (const Body& body : bodies_) {
+      if (body.presence.first > body.presence.last) continue;
+      span_.from = std::min(span_.from, body.presence.first);
+      span_.until = std::max(span_.until, body.presence.last);
+    }
     for (const Body& body : bodies_) add_tracks(body);
     if (auto warning = warning_about_lone_tracks(track_set_))
       track_set_.warnings.push_back(std::move(*warning));
@@ -277,20 +283,42 @@ class Reading {
     presence.first_track = track_set_.tracks.size();
     const std::span<const double> breaks =
         options_.missing == MissingPolicy::split ? body.placeless : std::span<const double>();
-    for (const Piece& whole : body.pieces) {
-      for (const Piece& piece : split_at_gaps(whole, max_gap, breaks)) {
-        if (piece.size() == 1) {
-          ++track_set_.left_out;
-          continue;
-        }
-        track_set_.samples += piece.size();
-        presence.used += piece.size();
-        ++presence.tracks;
-        RecordedTrack& track = track_set_.tracks.emplace_back();
-        track.id = body.id;
-        track.radius = body.radius;
-        for (const PlacedSample& sample : piece) track.samples.push_back(sample.sample);
+    std::vector<Piece> pieces;
+    for (const Piece& whole : body.pieces)
+      for (Piece& piece : split_at_gaps(whole, max_gap, breaks)) pieces.push_back(std::move(piece));
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      RecordedTrack track{.id = body.id, .samples = {}, .radius = body.radius};
+      for (const PlacedSample& sample : pieces[k]) track.samples.push_back(sample.sample);
+      if (options_.outside != Outside::vanish) reach_outside(track, k == 0, k + 1 == pieces.size());
+      if (track.samples.size() == 1) {
+        ++track_set_.left_out;
+        continue;
       }
+      track_set_.samples += pieces[k].size();
+      presence.used += pieces[k].size();
+      presence.first = std::min(presence.first, track.from());
+      presence.last = std::max(presence.last, track.until());
+      ++presence.tracks;
+      track_set_.tracks.push_back(std::move(track));
+    }
+  }
+
+  /// Makes the first and the last track of an id reach to the ends of the recording. One sample is enough for
+  /// a body that stays.
+  void reach_outside(RecordedTrack& track, bool is_first, bool is_last) const {
+    const bool stays = options_.outside == Outside::stay, is_alone = track.samples.size() == 1;
+    if (is_alone && !stays) return;
+    const TrackSample first = track.samples.front(), last = track.samples.back();
+    if (is_last && last.time < span_.until) {
+      track.reaches_on_to = span_.until;
+      track.rests.last = stays;
+      if (is_alone) track.samples.push_back({span_.until, last.position});
+    }
+    if (is_first && span_.from < first.time) {
+      track.reaches_back_to = span_.from;
+      track.rests.first = stays;
+      if (track.samples.size() == 1)
+        track.samples.insert(track.samples.begin(), {span_.from, first.position});
     }
   }
 
@@ -298,6 +326,10 @@ class Reading {
   const TrackOptions& options_;
   TrackSet track_set_;
   std::vector<Body> bodies_;
+  /// From the first to the last row of all ids.
+  struct {
+    double from = std::numeric_limits<double>::infinity(), until = -std::numeric_limits<double>::infinity();
+  } span_;
 };
 
 void check(const TrackOptions& options) {

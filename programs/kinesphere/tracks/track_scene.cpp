@@ -60,8 +60,8 @@ double tolerance_of(const TrackSet& track_set, const ApproachQuestion& question)
 Swing farthest_of(const TrackSet& track_set, const Motion& motion) {
   Swing farthest;
   for (std::uint32_t number = 0; number < track_set.tracks.size(); ++number) {
-    const auto& samples = track_set.tracks[number].samples;
-    for (const Segment& segment : motion.trajectory(number, samples.front().time, samples.back().time)) {
+    const RecordedTrack& track = track_set.tracks[number];
+    for (const Segment& segment : motion.trajectory(number, track.from(), track.until())) {
       const double s = segment.end - segment.begin;
       for (int axis = 0; axis < 3; ++axis) {
         const double coordinate =
@@ -69,7 +69,7 @@ Swing farthest_of(const TrackSet& track_set, const Motion& motion) {
             (std::abs(segment.velocity[axis]) +
              (std::abs(segment.acceleration[axis]) / 2.0 + std::abs(segment.jerk[axis]) * s / 6.0) * s) *
                 s;
-        if (coordinate > farthest.size) farthest = {track_set.tracks[number].id, coordinate, segment.begin};
+        if (coordinate > farthest.size) farthest = {track.id, coordinate, segment.begin};
       }
     }
   }
@@ -146,6 +146,13 @@ std::vector<Track> samples_of(const TrackSet& track_set, double stretch = 1.0) {
   return tracks;
 }
 
+std::vector<TrackStay> stays_of(const TrackSet& track_set) {
+  std::vector<TrackStay> stays;
+  for (const RecordedTrack& track : track_set.tracks)
+    stays.push_back({track.from(), track.until(), track.rests});
+  return stays;
+}
+
 /// Throws the error of a scene with curves through its samples.
 [[noreturn]] void refuse(const TrackSet& track_set, const Error& error) {
   const bool is_known = error.body.index < track_set.tracks.size();
@@ -156,7 +163,8 @@ std::vector<Track> samples_of(const TrackSet& track_set, double stretch = 1.0) {
 /// Returns a scene of the track set stretched along z.
 Scene scene_with(const TrackSet& track_set, const ApproachQuestion& question, double stretch, double distance,
                  double tolerance) {
-  auto scene = scene_of_tracks(samples_of(track_set, stretch), distance, question.interpolation);
+  auto scene =
+      scene_of_tracks(samples_of(track_set, stretch), distance, question.interpolation, stays_of(track_set));
   if (!scene) refuse(track_set, scene.error());
   for (std::size_t k = 0; k < track_set.tracks.size(); ++k)
     scene->bodies[k].radius += track_set.tracks[k].radius;

@@ -56,10 +56,9 @@ std::vector<double> radii_of(const TrackSet& track_set);
 /// curve overflows.
 RecordedTracks splines_through(const TrackSet& track_set);
 
-/// Returns a scene with a body for each track, with half the distance as radius, present from its first
-/// sample to its last, and a span that is the window. Throws ProgramError naming the option or the id: for a
-/// tolerance that does not fit the distance or is too fine for the track set's extent, and if a curve
-/// overflows.
+/// Returns a scene with a body for each track, with half the distance as radius, present as the track says,
+/// and a span that is the window. Throws ProgramError naming the option or the id: for a tolerance that does
+/// not fit the distance or is too fine for the track set's extent, and if a curve overflows.
 TrackScene scene_of(const TrackSet& track_set, const ApproachQuestion& question);
 
 }  // namespace kinesphere::program

@@ -16,6 +16,13 @@ struct RecordedTrack {
   std::string id;                    ///< spelled like in the file; 3.0 and 3.000000e+00 are 3
   std::vector<TrackSample> samples;  ///< at least 2, by time
   double radius = 0.0;               ///< of a disc or sphere around the body; 0 for a point
+  /// Times before the first and after the last sample until which the body is there, too (--outside).
+  std::optional<double> reaches_back_to, reaches_on_to;
+  RestingEnds rests;  ///< at these ends the body rests, and stays
+
+  /// When the body is there, in seconds.
+  double from() const { return reaches_back_to.value_or(samples.front().time); }
+  double until() const { return reaches_on_to.value_or(samples.back().time); }
 };
 
 /// What is known of an id, and how much of it became tracks.
@@ -59,13 +66,14 @@ struct TrackSet : ReadCounts {
   bool is_plane = false;              ///< nothing leaves the plane z = 0
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
   std::vector<Presence> presences;    ///< one for each id, in the order of the tracks
-  std::string filter;                 ///< the rows that count (--where); empty for all
-  std::vector<std::string> unused;    ///< names, or numbers from 1, of columns that are not read
-  std::size_t samples = 0;            ///< in all tracks
-  std::size_t left_out = 0;           ///< samples that were alone between two gaps
-  Tally duplicates;                   ///< samples of an id that already has one at that time
-  Tally too_fast;                     ///< samples that --max-speed left out
-  double sample_interval = 0;         ///< the median, over all ids
+  Outside outside = Outside::vanish;
+  std::string filter;               ///< the rows that count (--where); empty for all
+  std::vector<std::string> unused;  ///< names, or numbers from 1, of columns that are not read
+  std::size_t samples = 0;          ///< in all tracks
+  std::size_t left_out = 0;         ///< samples that were alone between two gaps
+  Tally duplicates;                 ///< samples of an id that already has one at that time
+  Tally too_fast;                   ///< samples that --max-speed left out
+  double sample_interval = 0;       ///< the median, over all ids
   /// The smallest and the largest gap limit of the ids, in seconds; a longer time between two samples cuts a
   /// track.
   double smallest_max_gap = 0, largest_max_gap = 0;

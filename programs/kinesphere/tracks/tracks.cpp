@@ -245,7 +245,7 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
   command->add_option("--summary", options.summary, "Write the summary to this file, as JSON")
       ->type_name("FILE");
   add_reading_options(*command, options.files, options.reading);
-  add_interpolation_option(*command, options.reading);
+  add_motion_options(*command, options.reading);
   command->add_flag(
       "--sizes", options.reading.hints.sizes,
       "Distances are between discs (in 3D spheres) around bodies of the columns length and width, and "
@@ -284,6 +284,7 @@ TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const Tr
   TracksResult result{.approaches = approaches_in(scene.searched(), run.events),
                       .left_out = {},
                       .coverage = coverage_of(track_set, filter),
+                      .vanishings = vanishings_in(track_set, filter, closeness),
                       .probes = run.result.counters.probes,
                       .hash = run.result.contact_hash};
   if (closeness.vertical)
@@ -296,6 +297,9 @@ TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const Tr
   find_closest(*scene.scene.motion, result.approaches, radii_of(track_set));
   for (const std::string& warning : warnings_of(result.coverage, track_set, found_none))
     print_message("kinesphere: warning: {}\n", warning);
+  if (found_none)
+    for (const std::string& warning : warnings_of(result.vanishings, track_set))
+      print_message("kinesphere: warning: {}\n", warning);
   warn_of_one_place(result.approaches, track_set, scene.scene.world.contact_tolerance);
   return result;
 }
@@ -305,6 +309,7 @@ void add_result(Summary& summary, const TracksOptions& options, const Closeness&
   summary.space();
   add_approaches(summary, closeness, result.approaches);
   add_left_out(summary, options.choice, result.left_out);
+  add_vanishings(summary, result.vanishings, track_set);
   summary.row(
       "probes", grouped(result.probes),
       fmt::format("for {} samples: {}", grouped(track_set.samples),
