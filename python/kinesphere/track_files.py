@@ -7,7 +7,7 @@ import json
 import os
 import tempfile
 from pathlib import Path
-from typing import Any, Literal, Optional, Sequence, Union
+from typing import Any, Literal, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -40,6 +40,9 @@ def tracks_in(
     outside: Literal["vanish", "stay", "go-on"] = "vanish",
     tolerance: Optional[float] = None,
     sizes: bool = False,
+    same: Union[str, Sequence[str], Mapping[str, str], None] = None,
+    ignore: Union[str, Sequence[str], None] = None,
+    count_handovers: bool = False,
     from_: Union[float, str, None] = None,
     until: Union[float, str, None] = None,
     only: Union[str, int, Sequence[Union[str, int]], None] = None,
@@ -65,6 +68,7 @@ def tracks_in(
     plan: rows are waypoints, between which ways go straight on however far apart these are. interpolate: "spline",
     or in a plan "linear", when not given. outside: before its first and after its last sample a body is not there, stays
     at that sample, or goes straight on.
+    same: ids that are other ids, as {"17": "18"} or "17=18". ignore: ids to leave out. Both may be "@FILE".
     All others are the options of the program of that name (docs/tracks.md).
     program: where it is, if not in PATH.
 
@@ -82,11 +86,13 @@ def tracks_in(
         raise TypeError("tracks_in: either distance or separation must be given")
     names = [files] if isinstance(files, (str, os.PathLike)) else list(files)
     ids = only if only is None or isinstance(only, (str, int)) else ",".join(map(str, only))
+    joined = [f"{one}={other}" for one, other in same.items()] if isinstance(same, Mapping) else same
     options: dict[str, Any] = {
         "format": format, "columns": columns, "where": where, "dates": dates, "frame_rate": frame_rate,
         "time_unit": time_unit, "unit": unit, "positions": positions, "projection": projection,
         "altitude": altitude, "missing": missing, "duplicates": duplicates, "max_speed": max_speed,
         "max_gap": max_gap, "plan": plan, "interpolate": interpolate, "outside": outside, "tolerance": tolerance, "sizes": sizes,
+        "same": joined, "ignore": ignore, "count_handovers": count_handovers,
         "from": from_, "until": until, "only": ids, "min_duration": min_duration,
         "distance": distance, "separation": separation,
     }  # fmt: skip

@@ -328,14 +328,16 @@ def test_recorded_tracks() -> None:
 
 def test_recorded_tracks_outside_of_their_samples() -> None:
     samples = [([0, 1, 2], [[0, 0, 0], [3, 0, 0], [4, 0, 0]])]
-    on = ks.RecordedTracks(samples).states(4.0)[0]
-    assert on[0] == pytest.approx(4 + 2 * on[3]) and on[3] > 0
+    places, velocities = ks.RecordedTracks(samples).states(4.0)
+    assert velocities[0][0] > 0 and places[0][0] == pytest.approx(4 + 2 * velocities[0][0])
     stays = ks.RecordedTracks(samples, outside="stay")
-    assert stays.states(9.0)[0] == pytest.approx([4, 0, 0, 0, 0, 0], abs=1e-12)
-    assert stays.states(-9.0)[0] == pytest.approx([0, 0, 0, 0, 0, 0], abs=1e-12)
+    for time, x in ((9.0, 4), (-9.0, 0)):
+        places, velocities = stays.states(time)
+        assert places[0] == pytest.approx([x, 0, 0], abs=1e-12)
+        assert velocities[0] == pytest.approx([0, 0, 0], abs=1e-12)
     vanishes = copy.copy(ks.RecordedTracks(samples, outside="vanish"))
     assert vanishes.span(0) == (0.0, 2.0)
-    assert vanishes.states(2.0)[0][0] == pytest.approx(4)
+    assert vanishes.states(2.0)[0][0][0] == pytest.approx(4)
     with pytest.raises(
         ks.InvalidValue, match="must not lie after its last sample, because it has vanished"
     ) as error:

@@ -112,3 +112,16 @@ def test_a_body_that_stays_after_its_last_sample(tmp_path: Path) -> None:
         found = ks.tracks_in(file, 1.5, program=program)
     assert len(found) == 0 and found.summary is not None and found.summary["near_ends"] == 1
     assert ks.tracks_in(file, 1.5, outside="stay", program=program)["closest_time"][0] == pytest.approx(25)
+
+
+def test_ids_that_are_one_body_or_of_no_interest(tmp_path: Path) -> None:
+    rows = "".join(f"a,{t},{t},0\n" for t in range(50)) + "".join(f"b,{t},{t},0.1\n" for t in range(47, 99))
+    rows += "".join(f"c,{t},{t},0.5\n" for t in range(99))
+    file = written(tmp_path, "id,t,x,y\n" + rows)
+    with pytest.warns(UserWarning, match="'a' goes on as 'b' at 47"):
+        found = ks.tracks_in(file, 0.2, ignore="c", program=program)
+    assert len(found) == 0 and found.summary is not None
+    assert found.summary["handovers"] == [{"from": "a", "to": "b", "at": 47}]
+    assert len(ks.tracks_in(file, 0.6, ignore=["a"], program=program)) == 1
+    joined = ks.tracks_in(file, 0.6, same={"a": "b"}, duplicates="first", program=program)
+    assert len(joined) == 1 and joined["begin"][0] == 0

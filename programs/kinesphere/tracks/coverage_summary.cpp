@@ -46,6 +46,13 @@ std::string hole_text(const Hole& hole, const TrackSet& track_set) {
                      track_set.times.text(hole.until, 6));
 }
 
+std::string handovers_text(const TrackSet& track_set) {
+  return first_of(track_set.handovers, track_set.handovers.size(), [&](const Handover& handover) {
+    return fmt::format("'{}' goes on as '{}' at {}", track_set.presences[handover.from].id,
+                       track_set.presences[handover.to].id, track_set.times.text(handover.time, 6));
+  });
+}
+
 std::string vanishing_text(const Vanishing& vanishing, const TrackSet& track_set) {
   return fmt::format("'{}' {} {}, '{}' {} from there at {}", vanishing.id,
                      vanishing.has_appeared ? "appears at" : "vanishes at",
@@ -93,6 +100,31 @@ void add_coverage(Summary& summary, const Coverage& coverage, const TrackSet& tr
     summary.row("pairs", grouped(coverage.pairs_never_looked_at),
                 fmt::format("of {} that are there together were never looked at: {}", grouped(coverage.pairs),
                             pairs_text(coverage)));
+}
+
+void add_handovers(Summary& summary, const TrackSet& track_set, std::size_t left_out) {
+  if (track_set.handovers.empty()) return;
+  summary.row(
+      "one body", grouped(track_set.handovers.size()),
+      fmt::format("ids that begin where and when another ends: {}; approaches of the two are left out: {}",
+                  handovers_text(track_set), grouped(left_out)));
+}
+
+std::string warning_of_handovers(const TrackSet& track_set, std::size_t left_out) {
+  return fmt::format(
+      "{} approaches are left out, as of one body under two ids, of which one begins where and when the "
+      "other ends: {}: --count-handovers counts them, and --same A=B makes two ids one body",
+      grouped(left_out), handovers_text(track_set));
+}
+
+std::string json_of_handovers(const TrackSet& track_set, std::size_t left_out) {
+  const auto json_handover = [&](const Handover& handover) {
+    return fmt::format(
+        R"({{"from": {}, "to": {}, "at": {}}})", json_text(track_set.presences[handover.from].id),
+        json_text(track_set.presences[handover.to].id), json_of_time(track_set.times, handover.time));
+  };
+  return fmt::format(R"("handovers": {}, "left_out_by_handover": {})",
+                     json_array(track_set.handovers, json_handover), left_out);
 }
 
 void add_vanishings(Summary& summary, const std::vector<Vanishing>& vanishings, const TrackSet& track_set) {

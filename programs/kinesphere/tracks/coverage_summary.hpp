@@ -15,6 +15,11 @@ void add_coverage(Summary& summary, const Coverage& coverage, const TrackSet& tr
 /// Adds a row if there are any.
 void add_vanishings(Summary& summary, const std::vector<Vanishing>& vanishings, const TrackSet& track_set);
 
+/// Adds a row if there are handovers. `left_out`: the number of approaches that are left out because of them.
+void add_handovers(Summary& summary, const TrackSet& track_set, std::size_t left_out);
+/// Precondition: there is a handover.
+std::string warning_of_handovers(const TrackSet& track_set, std::size_t left_out);
+
 /// Returns warnings, one line each: ids without a track, pairs that were never looked at, and time that was
 /// not, if it is much or if `found_none`, so that "none" is never said without it.
 std::vector<std::string> warnings_of(const Coverage& coverage, const TrackSet& track_set, bool found_none);
@@ -24,6 +29,8 @@ std::vector<std::string> warnings_of(const std::vector<Vanishing>& vanishings, c
 
 // Return members of a JSON object, without its braces.
 
+/// `left_out` as for add_handovers().
+std::string json_of_handovers(const TrackSet& track_set, std::size_t left_out);
 std::string json_members_of(const Coverage& coverage, const TrackSet& track_set);
 std::string json_members_of(const std::vector<Vanishing>& vanishings, const TrackSet& track_set);
 

@@ -79,7 +79,9 @@ class RawTrackSet::FileReader final : public ReportSink {
   void take(const SourceReport& report) override {
     if (report.may_have_height && !report.has_height) return take_incomplete(report);
     count_row();
-    RawTrack& track = track_of(report);
+    RawTrack* const found = track_of(report);
+    if (found == nullptr) return track_set_.count(track_set_.counts_.ignored, place_);
+    RawTrack& track = *found;
     const TimeField time = report.written.time.value_or(TimeField{report.stamp, report.time_kind});
     agree_on(time.kind, report.row);
     Vec3 position = report.row != nullptr ? report.written.position : report.position;
@@ -96,7 +98,9 @@ class RawTrackSet::FileReader final : public ReportSink {
   }
   void take_incomplete(const SourceReport& report) override {
     count_row();
-    RawTrack& track = track_of(report);
+    RawTrack* const found = track_of(report);
+    if (found == nullptr) return track_set_.count(track_set_.counts_.ignored, place_);
+    RawTrack& track = *found;
     const auto& time = report.written.time;
     if (time) agree_on(time->kind, report.row);
     const auto& missing = *report.row->missing();
@@ -151,11 +155,16 @@ class RawTrackSet::FileReader final : public ReportSink {
     if (!is_table(format_) || !std::exchange(is_counted_, true)) ++track_set_.counts_.rows;
   }
 
-  RawTrack& track_of(const SourceReport& report) const {
+  /// Returns null for an id that --ignore names.
+  RawTrack* track_of(const SourceReport& report) const {
+    const auto id = track_set_.identities_.name_of(report.id);
+    if (!id) return nullptr;
     auto& tracks = track_set_.tracks_;
-    const auto [place, is_new] = track_set_.track_of_.emplace(report.id, tracks.size());
+    const auto [place, is_new] = track_set_.track_of_.emplace(*id, tracks.size());
     if (is_new) tracks.push_back({.id = place->first});
-    return tracks[place->second];
+    RawTrack& track = tracks[place->second];
+    track.is_joined = track.is_joined || *id != report.id;
+    return &track;
   }
 
   /// Checks that all times are of one kind.
@@ -210,6 +219,7 @@ class RawTrackSet::FileReader final : public ReportSink {
   /// Counts the rows of each track by their order in time.
   void note_orders() const {
     for (RawTrack& track : track_set_.tracks_) {
+      if (track.is_joined) continue;
       const RawSample* before = nullptr;
       for (const RawSample& sample : track.samples) {
         if (sample.place.file != this_file()) continue;

@@ -37,6 +37,7 @@ struct RawTrack {
   double radius = 0.0;             ///< of a disc that covers the body (metres); 0 where no size is known
   std::size_t forward = 0, backward = 0;  ///< rows that are later, or earlier, than the row before
   Place first_backward;                   ///< row
+  bool is_joined = false;                 ///< --same names it, so that its rows may be in any order
   std::size_t placeless = 0;              ///< rows and messages that have no time or no position
   /// A row without a position whose time counts. Times of rows that MissingPolicy::skip leaves out do not: a
   /// receiver without a fix may write any.
@@ -51,7 +52,7 @@ class RawTrackSet {
  public:
   /// `options` must outlive it.
   RawTrackSet(const TrackOptions& options, bool several_files)
-      : options_(options), several_files_(several_files) {}
+      : options_(options), several_files_(several_files), identities_(options.identities) {}
 
   /// Adds a file: a table, a file that is converted to one, or messages. Throws ProgramError naming file,
   /// line and column of an error. Damaged messages, and those without a position, are counted.
@@ -70,6 +71,10 @@ class RawTrackSet {
   std::string name(const Place& place) const;
   /// Throws ProgramError if two files have an id at the same times, which may be two bodies.
   void ask_about_ids() const;
+  /// Throws ProgramError if --same or --ignore names an id that has not come.
+  void ask_about_identities() const {
+    identities_.ask_about_unknown(tracks_.empty() ? std::string() : tracks_.front().id);
+  }
   /// Throws ProgramError if the files have scenes that may not belong together.
   void ask_about_scenes() const { scenes_.ask(head_.file); }
   /// Increments the tally.
@@ -90,6 +95,7 @@ class RawTrackSet {
 
   const TrackOptions& options_;
   bool several_files_;
+  Identities identities_;
   std::vector<std::string> files_;
   TableColumns columns_;
   TableHead head_;

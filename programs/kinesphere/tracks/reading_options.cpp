@@ -5,6 +5,26 @@
 
 namespace kinesphere::program {
 
+namespace {
+
+void add_identity_options(CLI::App& command, IdentityChoice& identities) {
+  const auto add_ids = [&](const char* name, std::vector<std::string>& texts, const char* type,
+                           const char* description) {
+    command.add_option(name, texts, description)
+        ->type_name(type)
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->group(input_group);
+  };
+  add_ids("--same", identities.same, "A=B|@FILE",
+          "Samples of the id A are samples of the id B; FILE has A=B or A,B in each line. May be repeated");
+  add_ids("--ignore", identities.ignore, "ID|@FILE",
+          "Leave out an id, or those at the begin of each line of FILE. May be repeated");
+}
+
+}  // namespace
+
 std::string_view name_of(Outside outside) {
   switch (outside) {
     case Outside::vanish:
@@ -55,6 +75,7 @@ CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& fi
                   "interval of that id when not given")
       ->check(finite_number())
       ->group(input_group);
+  add_identity_options(command, options.identities);
   command
       .add_flag(
           "--plan", options.is_plan,
@@ -68,6 +89,10 @@ void add_motion_options(CLI::App& command, TrackOptions& options) {
       command, "--interpolate", options.interpolation,
       {{"spline", Interpolation::spline}, {"linear", Interpolation::linear}}, "spline",
       "The motion between two samples; with --plan linear");
+  command
+      .add_flag("--count-handovers", options.counts_handovers,
+                "An id that begins where and when another one ends is another body, and comes near it")
+      ->group(input_group);
   add_choice(command, "--outside", options.outside,
              {{"vanish", Outside::vanish}, {"stay", Outside::stay}, {"go-on", Outside::go_on}}, "vanish",
              "Before its first and after its last sample a body is not there, stays at that sample, or goes "

@@ -6,6 +6,7 @@
 
 #include "formats/streams/report_format.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
+#include "tracks/identities.hpp"
 #include "tracks/projection.hpp"
 
 namespace kinesphere::program {
@@ -29,6 +30,7 @@ enum class DuplicatePolicy {
 std::string_view name_of(Outside outside);
 
 struct TrackOptions : FormatChoices {
+  IdentityChoice identities;
   ProjectionChoice projection = ProjectionChoice::automatic;
   MissingPolicy missing = MissingPolicy::fail;
   DuplicatePolicy duplicates = DuplicatePolicy::fail;
@@ -40,6 +42,7 @@ struct TrackOptions : FormatChoices {
   /// The rows are waypoints of plans: however far apart, the way goes on from one to the next.
   bool is_plan = false;
   std::optional<Interpolation> interpolation;  ///< Default: straight on in a plan, else a spline
+  bool counts_handovers = false;  ///< approaches of an id with the one as which it goes on are approaches
   /// Before the first and after the last sample of an id, within the recording.
   Outside outside = Outside::vanish;
 

@@ -76,10 +76,12 @@ void add_track_set(Summary& summary, const std::vector<std::string>& files, cons
   if (!track_set.filter.empty())
     summary.row("left out", grouped(track_set.filtered.count),
                 fmt::format("rows for which not: {}", track_set.filter));
+  add_tally(summary, "ignored ids", track_set.ignored);
   add_tally(summary, "missing values", track_set.missing);
   add_tally(summary, "malformed", track_set.malformed);
   add_tally(summary, "repeated", track_set.repeated);
   add_tally(summary, "duplicates", track_set.duplicates);
+  add_tally(summary, "heard twice", track_set.echoes);
   add_tally(summary, "too fast", track_set.too_fast);
   if (track_set.left_out > 0) {
     summary.row(
@@ -106,6 +108,8 @@ std::vector<std::string> warnings_of(const TrackSet& track_set) {
   add(track_set.missing.count, "have no time or no position");
   add(track_set.malformed.count, "are malformed");
   add(track_set.duplicates.count, "repeat a time of their id");
+  add(track_set.echoes.count,
+      "repeat a place of their id a little later, as from a second receiver, and are left out");
   add(track_set.too_fast.count, "were left out by --max-speed");
   return warnings;
 }

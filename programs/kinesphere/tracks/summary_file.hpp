@@ -17,6 +17,7 @@ namespace kinesphere::program {
 struct TracksResult {
   std::vector<Approach> approaches;
   LeftOut left_out;
+  std::size_t of_one_body = 0;  ///< approaches that were left out because of a handover
   Coverage coverage;
   std::vector<Vanishing> vanishings;
   std::uint64_t probes = 0;

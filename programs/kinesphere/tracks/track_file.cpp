@@ -15,6 +15,8 @@
 #include "formats/fields/degree_check.hpp"
 #include "formats/fields/time_check.hpp"
 #include "tracks/cleaning.hpp"
+#include "tracks/echoes.hpp"
+#include "tracks/handovers.hpp"
 #include "tracks/raw_samples.hpp"
 
 namespace kinesphere::program {
@@ -225,6 +227,7 @@ class Reading {
       span_.until = std::max(span_.until, body.presence.last);
     }
     for (const Body& body : bodies_) add_tracks(body);
+    if (!options_.counts_handovers) hand_over();
     if (auto warning = warning_about_lone_tracks(track_set_))
       track_set_.warnings.push_back(std::move(*warning));
     return std::move(track_set_);
@@ -241,6 +244,7 @@ class Reading {
            sample.place});
     }
     leave_one_at_each_time(samples, track.id, options_.duplicates, raw_, track_set_.duplicates);
+    leave_out_echoes(samples, raw_, track_set_.echoes);
     body.presence = presence_of(track, samples);
     if (options_.max_speed) {
       body.pieces = split_by_speed(samples, *options_.max_speed, raw_, track_set_.too_fast);
@@ -303,6 +307,22 @@ class Reading {
     }
   }
 
+  /// A body that goes on under another id is not outside of its samples.
+  void hand_over() {
+    track_set_.handovers = handovers_in(track_set_);
+    for (const Handover& handover : track_set_.handovers) {
+      Presence &from = track_set_.presences[handover.from], &to = track_set_.presences[handover.to];
+      RecordedTrack &last = track_set_.tracks[from.first_track + from.tracks - 1],
+                    &first = track_set_.tracks[to.first_track];
+      last.reaches_on_to.reset();
+      last.rests.last = false;
+      from.last = bodies_[handover.from].presence.last;
+      first.reaches_back_to.reset();
+      first.rests.first = false;
+      to.first = bodies_[handover.to].presence.first;
+    }
+  }
+
   /// Makes the first and the last track of an id reach to the ends of the recording. One sample is enough for
   /// a body that stays.
   void reach_outside(RecordedTrack& track, bool is_first, bool is_last) const {
@@ -351,6 +371,7 @@ TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options)
     files.push_back(text.file);
     raw.read(std::move(text.text), text.file);
   }
+  raw.ask_about_identities();
   ask_about_row_numbers(raw);
   raw.ask_about_ids();
   ask_about_times(raw);
@@ -360,6 +381,9 @@ TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options)
     if (track_set.rows > 0 && track_set.filtered.count == track_set.rows)
       throw ProgramError(fmt::format("{}: expected rows for which this holds: {}; but there are none",
                                      fmt::join(files, ", "), track_set.filter));
+    if (track_set.rows > 0 && track_set.ignored.count == track_set.rows)
+      throw ProgramError(fmt::format("{}: expected an id that --ignore does not name, but there is none",
+                                     fmt::join(files, ", ")));
     if (track_set.malformed.count > 0 && track_set.malformed.count == track_set.rows)
       throw ProgramError(track_set.warnings.front());
     if (track_set.too_fast.count > 0)

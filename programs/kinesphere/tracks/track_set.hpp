@@ -36,6 +36,13 @@ struct Presence {
   std::size_t first_track = 0, tracks = 0;  ///< its tracks follow each other
 };
 
+/// An id that begins where and when another one ends: one body under two ids.
+struct Handover {
+  std::size_t from = 0, to = 0;  ///< numbers of their presences
+  double time = 0.0;             ///< of the first sample of the id that begins
+  double distance = 0.0;         ///< from there to where the other one was, or would have been
+};
+
 /// Count of dropped items, and where the first ones stand.
 struct Tally {
   std::size_t count = 0;
@@ -46,6 +53,7 @@ struct Tally {
 struct ReadCounts {
   std::size_t rows = 0;               ///< rows and messages in all files
   Tally filtered;                     ///< rows that --where leaves out
+  Tally ignored;                      ///< rows and messages of ids that --ignore names
   Tally missing;                      ///< rows and messages without a time or a position
   Tally malformed;                    ///< damaged messages
   Tally repeated;                     ///< messages with a sample that their id has sent before
@@ -66,12 +74,14 @@ struct TrackSet : ReadCounts {
   bool is_plane = false;              ///< nothing leaves the plane z = 0
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
   std::vector<Presence> presences;    ///< one for each id, in the order of the tracks
+  std::vector<Handover> handovers;    ///< by time; none if approaches of such ids are to count
   Outside outside = Outside::vanish;
   std::string filter;               ///< the rows that count (--where); empty for all
   std::vector<std::string> unused;  ///< names, or numbers from 1, of columns that are not read
   std::size_t samples = 0;          ///< in all tracks
   std::size_t left_out = 0;         ///< samples that were alone between two gaps
   Tally duplicates;                 ///< samples of an id that already has one at that time
+  Tally echoes;                     ///< samples that a second receiver has passed on later
   Tally too_fast;                   ///< samples that --max-speed left out
   double sample_interval = 0;       ///< the median, over all ids
   /// The smallest and the largest gap limit of the ids, in seconds; a longer time between two samples cuts a

@@ -28,6 +28,7 @@
 #include "tracks/approach_plot.hpp"
 #include "tracks/closeness.hpp"
 #include "tracks/coverage_summary.hpp"
+#include "tracks/handovers.hpp"
 #include "tracks/implied_speeds.hpp"
 #include "tracks/minima_table.hpp"
 #include "tracks/reading_options.hpp"
@@ -283,6 +284,7 @@ TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const Tr
                        const Closeness& closeness, const ApproachFilter& filter) {
   TracksResult result{.approaches = approaches_in(scene.searched(), run.events),
                       .left_out = {},
+                      .of_one_body = 0,
                       .coverage = coverage_of(track_set, filter),
                       .vanishings = vanishings_in(track_set, filter, closeness),
                       .probes = run.result.counters.probes,
@@ -292,9 +294,12 @@ TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const Tr
                                            .vertical = *closeness.vertical,
                                            .tolerance = scene.scene.world.contact_tolerance},
                                           *scene.scene.motion, result.approaches);
+  result.of_one_body = leave_out_handovers(result.approaches, track_set);
   const bool found_none = result.approaches.empty();
   result.left_out = filter.apply(result.approaches);
   find_closest(*scene.scene.motion, result.approaches, radii_of(track_set));
+  if (result.of_one_body > 0)
+    print_message("kinesphere: warning: {}\n", warning_of_handovers(track_set, result.of_one_body));
   for (const std::string& warning : warnings_of(result.coverage, track_set, found_none))
     print_message("kinesphere: warning: {}\n", warning);
   if (found_none)
@@ -309,6 +314,7 @@ void add_result(Summary& summary, const TracksOptions& options, const Closeness&
   summary.space();
   add_approaches(summary, closeness, result.approaches);
   add_left_out(summary, options.choice, result.left_out);
+  add_handovers(summary, track_set, result.of_one_body);
   add_vanishings(summary, result.vanishings, track_set);
   summary.row(
       "probes", grouped(result.probes),

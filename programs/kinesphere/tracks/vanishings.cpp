@@ -66,10 +66,15 @@ class VanishingSearch {
       : track_set_(track_set),
         filter_(filter),
         closeness_(closeness),
-        grid_(cell_for(track_set, closeness)) {}
+        grid_(cell_for(track_set, closeness)),
+        has_come_(track_set.presences.size()),
+        goes_on_(track_set.presences.size()) {
+    for (const Handover& handover : track_set.handovers)
+      goes_on_[handover.from] = has_come_[handover.to] = true;
+  }
 
   std::vector<Vanishing> run() {
-    for (const Presence& presence : track_set_.presences) add_ends(presence);
+    for (std::size_t number = 0; number < track_set_.presences.size(); ++number) add_ends(number);
     found_.resize(places_.size());
     if (!places_.empty())
       for (const Presence& presence : track_set_.presences) follow(presence);
@@ -96,13 +101,15 @@ class VanishingSearch {
     return filter_.asked().from <= time && time <= filter_.asked().until;
   }
 
-  void add_ends(const Presence& presence) {
+  /// A body that goes on under another id does not vanish.
+  void add_ends(std::size_t number) {
+    const Presence& presence = track_set_.presences[number];
     if (presence.tracks == 0) return;
     const RecordedTrack& first = track_set_.tracks[presence.first_track];
     const RecordedTrack& last = track_set_.tracks[presence.first_track + presence.tracks - 1];
     const bool is_chosen = filter_.wants(presence);
-    if (!first.reaches_back_to) add({&first, first.samples.front(), true, is_chosen});
-    if (!last.reaches_on_to) add({&last, last.samples.back(), false, is_chosen});
+    if (!first.reaches_back_to && !has_come_[number]) add({&first, first.samples.front(), true, is_chosen});
+    if (!last.reaches_on_to && !goes_on_[number]) add({&last, last.samples.back(), false, is_chosen});
   }
   void add(const EndPlace& place) {
     if (!is_in_window(place.sample.time)) return;
@@ -169,6 +176,7 @@ class VanishingSearch {
   const ApproachFilter& filter_;
   const Closeness& closeness_;
   PlaceGrid grid_;
+  std::vector<bool> has_come_, goes_on_;  ///< by presence: from another id, or as another one
   std::vector<EndPlace> places_;
   std::vector<std::optional<Vanishing>> found_;  ///< by place
 };

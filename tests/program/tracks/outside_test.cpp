@@ -65,7 +65,9 @@ TEST(Outside, VanishingsAreThoseOfAPlainSearch) {
   for (int id = 0; id < 30; ++id)
     for (unsigned k = 0, begin = next() % 40; k < 10; ++k)
       text += fmt::format("b{},{},{},{}\n", id, begin + k, next() % 1000 * 0.1, next() % 1000 * 0.1);
-  const TrackSet track_set = parse(text, Outside::vanish);
+  TrackOptions options;
+  options.counts_handovers = true;
+  const TrackSet track_set = parse_tracks({{"t.csv", text}}, options);
   std::size_t expected = 0;
   for (const RecordedTrack& track : track_set.tracks) {
     for (const bool is_first : {true, false}) {
