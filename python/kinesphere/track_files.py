@@ -43,6 +43,7 @@ def tracks_in(
     same: Union[str, Sequence[str], Mapping[str, str], None] = None,
     ignore: Union[str, Sequence[str], None] = None,
     count_handovers: bool = False,
+    ground: Union[float, str, None] = None,
     from_: Union[float, str, None] = None,
     until: Union[float, str, None] = None,
     only: Union[str, int, Sequence[Union[str, int]], None] = None,
@@ -92,7 +93,7 @@ def tracks_in(
         "time_unit": time_unit, "unit": unit, "positions": positions, "projection": projection,
         "altitude": altitude, "missing": missing, "duplicates": duplicates, "max_speed": max_speed,
         "max_gap": max_gap, "plan": plan, "interpolate": interpolate, "outside": outside, "tolerance": tolerance, "sizes": sizes,
-        "same": joined, "ignore": ignore, "count_handovers": count_handovers,
+        "same": joined, "ignore": ignore, "count_handovers": count_handovers, "ground": ground,
         "from": from_, "until": until, "only": ids, "min_duration": min_duration,
         "distance": distance, "separation": separation,
     }  # fmt: skip

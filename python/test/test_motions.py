@@ -345,12 +345,12 @@ def test_recorded_tracks_outside_of_their_samples() -> None:
     assert error.value.code == "out_of_range"
     with pytest.raises(ks.InvalidValue, match="'go-on', 'stay' or 'vanish'"):
         ks.RecordedTracks(samples, outside="leave")  # type: ignore[arg-type]
+    pair = ks.RecordedTracks([*samples, ([0, 2], [[9, 0, 0], [6, 0, 0]])], outside="vanish")
     world = ks.World()
-    world.add_motion(vanishes, radii=0.5)
-    world.add((9, 0, 0), radius=0.5)
-    assert len(world.run(2.0, vanishes)) == 0
+    world.add_motion(pair, radii=0.5)
+    assert len(world.run(2.0, pair)) == 0
     with pytest.raises(ks.InvalidValue, match="has vanished"):
-        world.run(9.0, vanishes)
+        world.run(9.0, pair)
 
 
 def test_a_motion_is_added_where_its_numbers_are_ids() -> None:

@@ -14,7 +14,8 @@
 namespace kinesphere::program {
 namespace {
 
-/// Steps around a handover from which velocity and length of steps are known.
+/// Steps around a handover from which velocity and length of steps are known. A track of fewer says too
+/// little.
 constexpr std::size_t steps_looked_at = 4;
 /// Factor on the median interval, as for gaps.
 constexpr double largest_gap = 2.5;
@@ -129,8 +130,10 @@ std::vector<Handover> handovers_in(const TrackSet& track_set) {
   for (std::size_t number = 0; number < track_set.presences.size(); ++number) {
     const Presence& presence = track_set.presences[number];
     if (presence.tracks == 0) continue;
-    ends.emplace_back(number, presence, track_set, false);
-    begins.emplace_back(number, presence, track_set, true);
+    const RecordedTrack* const first = &track_set.tracks[presence.first_track];
+    if (first[presence.tracks - 1].samples.size() > steps_looked_at)
+      ends.emplace_back(number, presence, track_set, false);
+    if (first->samples.size() > steps_looked_at) begins.emplace_back(number, presence, track_set, true);
   }
   std::sort(begins.begin(), begins.end(),
             [](const TrackEnd& a, const TrackEnd& b) { return a.first < b.first; });

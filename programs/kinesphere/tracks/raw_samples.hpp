@@ -28,6 +28,7 @@ struct RawSample {
   FileTime time;
   Vec3 position;  ///< in the units of the file; z is NaN where only others have a height
   Place place;
+  bool on_ground = false;  ///< without a height
 };
 
 /// The samples of one id.
@@ -51,8 +52,8 @@ struct RawTrack {
 class RawTrackSet {
  public:
   /// `options` must outlive it.
-  RawTrackSet(const TrackOptions& options, bool several_files)
-      : options_(options), several_files_(several_files), identities_(options.identities) {}
+  /// Throws ProgramError naming a wrong option.
+  RawTrackSet(const TrackOptions& options, bool several_files);
 
   /// Adds a file: a table, a file that is converted to one, or messages. Throws ProgramError naming file,
   /// line and column of an error. Damaged messages, and those without a position, are counted.
@@ -104,8 +105,9 @@ class RawTrackSet {
   Place first_time_;
   std::vector<RawTrack> tracks_;
   std::unordered_map<std::string, std::size_t> track_of_;
-  std::optional<bool> passed_midnight_;                   ///< by clock times
-  std::optional<std::size_t> id_column_;                  ///< of ids that may be other bodies in other files
+  std::optional<bool> passed_midnight_;   ///< by clock times
+  std::optional<double> ground_;          ///< --ground, in metres or, without a unit, in the unit of heights
+  std::optional<std::size_t> id_column_;  ///< of ids that may be other bodies in other files
   std::unordered_map<std::string, std::string> file_of_;  ///< of the bodies that are called like their file
   ReadCounts counts_;
   SceneCheck scenes_;

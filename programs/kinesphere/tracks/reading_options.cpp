@@ -77,6 +77,11 @@ CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& fi
       ->group(input_group);
   add_identity_options(command, options.identities);
   command
+      .add_option("--ground", options.ground,
+                  "Height of aircraft that are on the ground and send none, which are left out else")
+      ->type_name("LENGTH")
+      ->group(input_group);
+  command
       .add_flag(
           "--plan", options.is_plan,
           "Rows are waypoints of plans: however far apart, the way goes straight on from one to the next")

@@ -42,6 +42,7 @@ struct TrackOptions : FormatChoices {
   /// The rows are waypoints of plans: however far apart, the way goes on from one to the next.
   bool is_plan = false;
   std::optional<Interpolation> interpolation;  ///< Default: straight on in a plan, else a spline
+  std::string ground;  ///< height of aircraft on the ground that have none: a length; empty to leave them out
   bool counts_handovers = false;  ///< approaches of an id with the one as which it goes on are approaches
   /// Before the first and after the last sample of an id, within the recording.
   Outside outside = Outside::vanish;

@@ -77,6 +77,11 @@ void add_track_set(Summary& summary, const std::vector<std::string>& files, cons
     summary.row("left out", grouped(track_set.filtered.count),
                 fmt::format("rows for which not: {}", track_set.filter));
   add_tally(summary, "ignored ids", track_set.ignored);
+  if (track_set.on_ground.count > 0)
+    summary.row("on the ground", grouped(track_set.on_ground.count),
+                track_set.ground.empty() ? fmt::format("without a height, left out: {} (see --ground)",
+                                                       first_places(track_set.on_ground))
+                                         : fmt::format("without a height, taken at {}", track_set.ground));
   add_tally(summary, "missing values", track_set.missing);
   add_tally(summary, "malformed", track_set.malformed);
   add_tally(summary, "repeated", track_set.repeated);
@@ -105,6 +110,9 @@ std::vector<std::string> warnings_of(const TrackSet& track_set) {
                                      percent(static_cast<double>(part), rows), what));
   };
   add(track_set.left_out, "were left out, alone between two gaps: a longer --max-gap keeps them");
+  if (track_set.ground.empty())
+    add(track_set.on_ground.count,
+        "are of aircraft on the ground and left out: --ground gives them a height");
   add(track_set.missing.count, "have no time or no position");
   add(track_set.malformed.count, "are malformed");
   add(track_set.duplicates.count, "repeat a time of their id");

@@ -20,10 +20,10 @@ std::string summary_json(const std::vector<std::string>& files, const TrackSet& 
                   fmt::join(names, ", "), json_text(track_set.format), track_set.presences.size(),
                   track_set.tracks.size(), track_set.rows, track_set.samples);
   text += fmt::format(
-      R"(, "filtered": {}, "ignored": {}, "missing": {}, "malformed": {}, "repeated": {}, "duplicates": {}, "echoes": {}, "too_fast": {}, "alone": {})",
-      track_set.filtered.count, track_set.ignored.count, track_set.missing.count, track_set.malformed.count,
-      track_set.repeated.count, track_set.duplicates.count, track_set.echoes.count, track_set.too_fast.count,
-      track_set.left_out);
+      R"(, "filtered": {}, "ignored": {}, "on_ground": {}, "missing": {}, "malformed": {}, "repeated": {}, "duplicates": {}, "echoes": {}, "too_fast": {}, "alone": {})",
+      track_set.filtered.count, track_set.ignored.count, track_set.on_ground.count, track_set.missing.count,
+      track_set.malformed.count, track_set.repeated.count, track_set.duplicates.count, track_set.echoes.count,
+      track_set.too_fast.count, track_set.left_out);
   text += fmt::format(R"(, "from": {}, "until": {}, "span_s": {})",
                       json_of_time(track_set.times, run.world.start_time),
                       json_of_time(track_set.times, run.end_time), run.end_time - run.world.start_time);

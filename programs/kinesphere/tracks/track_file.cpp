@@ -209,6 +209,7 @@ class Reading {
     if (track_set_.times.kind() == TimeKind::frames) track_set_.frame_rate = track_set_.times.rate();
     track_set_.filter = raw.columns().where;
     track_set_.outside = options.outside;
+    track_set_.ground = options.ground;
     for (const std::size_t column : raw.columns().unused)
       track_set_.unused.push_back(raw.head().names.empty() ? fmt::format("{}", column + 1)
                                                            : raw.head().names[column]);

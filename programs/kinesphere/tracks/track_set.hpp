@@ -54,6 +54,7 @@ struct ReadCounts {
   std::size_t rows = 0;               ///< rows and messages in all files
   Tally filtered;                     ///< rows that --where leaves out
   Tally ignored;                      ///< rows and messages of ids that --ignore names
+  Tally on_ground;                    ///< aircraft on the ground without a height, with --ground or left out
   Tally missing;                      ///< rows and messages without a time or a position
   Tally malformed;                    ///< damaged messages
   Tally repeated;                     ///< messages with a sample that their id has sent before
@@ -75,6 +76,7 @@ struct TrackSet : ReadCounts {
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
   std::vector<Presence> presences;    ///< one for each id, in the order of the tracks
   std::vector<Handover> handovers;    ///< by time; none if approaches of such ids are to count
+  std::string ground;  ///< height of aircraft on the ground that send none; empty where they are left out
   Outside outside = Outside::vanish;
   std::string filter;               ///< the rows that count (--where); empty for all
   std::vector<std::string> unused;  ///< names, or numbers from 1, of columns that are not read

@@ -59,6 +59,7 @@ TEST(Handovers, AreNoneOfOthers) {
       << "a third one is there";
   EXPECT_EQ(handovers(walk("a", 0, 50, 0, 1) + walk("b", 5, 50, 5, 1, 0.02) + walk("c", 5, 50, 5, 1)), none)
       << "two begin there";
+  EXPECT_EQ(handovers(walk("a", 0, 50, 0, 1) + walk("b", 5, 4, 5, 1)), none) << "four samples";
   EXPECT_EQ(handovers(walk("a", 0, 50, 0, 1) + walk("b", 0, 50, 0, 1, 0.01)), none) << "side by side";
   EXPECT_EQ(handovers(walk("a", 0, 50, 0, 1) + walk("b", 4.8, 2, 4.8, 1, 0.01)), none) << "b ends first";
 }
