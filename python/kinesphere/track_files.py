@@ -74,7 +74,8 @@ def tracks_in(
     program: where it is, if not in PATH.
 
     Ids are texts. Times are numbers of the file's unit, or datetime64 (in UTC where the file says a zone);
-    frames are seconds since frame 0. Positions are those of the file, with NaN as z of motion in a plane.
+    frames are seconds since frame 0. first_before, first_after, second_before and second_after are the times of the samples
+    between which closest_time lies, and samples_apart the longer of the two times between them, in seconds. Positions are those of the file, with NaN as z of motion in a plane.
 
     The result's summary is what `kinesphere tracks --summary` writes: what was read, and what was not looked at, as
     "not_looked_at_s" of the seconds "together_s" that pairs are there together, "pairs_never_looked_at" and
@@ -114,7 +115,16 @@ def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:
     def numbers(name: str) -> npt.NDArray[np.float64]:
         """Of a column whose name may have a unit behind it."""
         return np.array(
-            [float(row.get(name) or row.get(f"{name}_m") or row.get(f"{name}_mps") or "nan") for row in rows]
+            [
+                float(
+                    row.get(name)
+                    or row.get(f"{name}_m")
+                    or row.get(f"{name}_mps")
+                    or row.get(f"{name}_s")
+                    or "nan"
+                )
+                for row in rows
+            ]
         )
 
     def place(of: str) -> npt.NDArray[np.float64]:
@@ -134,6 +144,9 @@ def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:
         "second_position": place("second"),
         "relative_speed": numbers("relative_speed"),
     }
+    for name in ("first_before", "first_after", "second_before", "second_after"):
+        columns[name] = _times(text(name))
+    columns["samples_apart"] = numbers("samples_apart")
     for name in ("horizontal_distance", "vertical_distance"):
         if rows and {name, f"{name}_m"} & rows[0].keys():
             columns[name] = numbers(name)
@@ -145,8 +158,8 @@ def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:
 
 
 def _times(texts: list[str]) -> npt.NDArray[Any]:
-    """Numbers, or dates: all are of one kind."""
+    """Numbers, or dates: all are of one kind, and what is empty is NaN or NaT."""
     try:
-        return np.array([float(text) for text in texts])
+        return np.array([float(text or "nan") for text in texts])
     except ValueError:
-        return np.array([text.removesuffix("Z") for text in texts], dtype="datetime64[ns]")
+        return np.array([text.removesuffix("Z") or "NaT" for text in texts], dtype="datetime64[ns]")

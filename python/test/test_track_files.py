@@ -32,6 +32,7 @@ def test_files_and_arrays_have_the_same_approaches(tmp_path: Path) -> None:
     for column in ("begin", "end", "closest_time", "closest_distance", "relative_speed"):
         assert found[column][0] == pytest.approx(same[column][0], abs=1e-6)
     assert found["first_position"][0][:2] == pytest.approx(same["first_position"][0][:2], abs=1e-6)
+    assert (found["first_before"][0], found["second_after"][0], found["samples_apart"][0]) == (1, 1, 0)
     assert np.isnan(found["first_position"][0][2]) and not found["begins_with_track"][0]
 
 

@@ -19,28 +19,38 @@ Track with_rests(Track track, const TrackStay& stay) {
   return track;
 }
 
+Result<void> set_lines(Scene& scene, Result<LinearTracks> lines) {
+  if (!lines) return lines.error();
+  scene.turns = lines->turns();
+  scene.motion = std::make_unique<LinearTracks>(std::move(*lines));
+  return {};
+}
+
+Result<void> set_motion(Scene& scene, const std::vector<Track>& tracks, Interpolation interpolation,
+                        const std::vector<TrackStay>& stays, const std::vector<bool>& is_straight) {
+  const bool has_straight = std::find(is_straight.begin(), is_straight.end(), true) != is_straight.end();
+  std::vector<Track> resting;
+  if (has_straight || interpolation == Interpolation::linear)
+    for (std::size_t k = 0; k < tracks.size(); ++k) resting.push_back(with_rests(tracks[k], stays[k]));
+  if (interpolation == Interpolation::linear) return set_lines(scene, LinearTracks::create(resting));
+  std::vector<RestingEnds> ends;
+  for (const TrackStay& stay : stays) ends.push_back(stay.rests);
+  auto curves = RecordedTracks::create(tracks, ends);
+  if (!curves) return curves.error();
+  if (has_straight) return set_lines(scene, LinearTracks::create_among(*curves, resting, is_straight));
+  scene.motion = std::make_unique<RecordedTracks>(std::move(*curves));
+  return {};
+}
+
 }  // namespace
 
 Result<Scene> scene_of_tracks(const std::vector<Track>& tracks, double distance, Interpolation interpolation,
-                              std::vector<TrackStay> stays) {
+                              std::vector<TrackStay> stays, const std::vector<bool>& is_straight) {
   Scene scene;
   scene.name = "tracks";
   if (stays.empty())
     for (const Track& track : tracks) stays.push_back({track.front().time, track.back().time});
-  if (interpolation == Interpolation::linear) {
-    std::vector<Track> resting;
-    for (std::size_t k = 0; k < tracks.size(); ++k) resting.push_back(with_rests(tracks[k], stays[k]));
-    auto lines = LinearTracks::create(resting);
-    if (!lines) return lines.error();
-    scene.turns = lines->turns();
-    scene.motion = std::make_unique<LinearTracks>(std::move(*lines));
-  } else {
-    std::vector<RestingEnds> ends;
-    for (const TrackStay& stay : stays) ends.push_back(stay.rests);
-    auto curves = RecordedTracks::create(tracks, ends);
-    if (!curves) return curves.error();
-    scene.motion = std::make_unique<RecordedTracks>(std::move(*curves));
-  }
+  if (auto set = set_motion(scene, tracks, interpolation, stays, is_straight); !set) return set.error();
   scene.world.start_time = stays.front().from;
   scene.end_time = stays.front().until;
   for (const TrackStay& stay : stays) {

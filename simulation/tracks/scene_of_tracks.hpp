@@ -23,10 +23,11 @@ struct TrackStay {
 };
 
 /// Makes a scene with a body for each track. Its radius is half of `distance` (length), and it is there for
-/// its stay; without stays, from the first sample to the last. The caller sets the tolerance of the world and
-/// the number of dimensions. Precondition: there is at least one track, and a stay for each if there are any.
-/// Errors: as RecordedTracks::create().
+/// its stay; without stays, from the first sample to the last. Bodies of which `is_straight` is true go
+/// straight on from sample to sample whatever the interpolation; empty for none. The caller sets the
+/// tolerance of the world and the number of dimensions. Precondition: there is at least one track, and a stay
+/// and an entry of `is_straight` for each if there are any. Errors: as RecordedTracks::create().
 Result<Scene> scene_of_tracks(const std::vector<Track>& tracks, double distance, Interpolation interpolation,
-                              std::vector<TrackStay> stays = {});
+                              std::vector<TrackStay> stays = {}, const std::vector<bool>& is_straight = {});
 
 }  // namespace kinesphere

@@ -125,6 +125,15 @@ std::vector<std::string> warnings_of(const TrackSet& track_set) {
 std::vector<std::string> warnings_of(const TrackSet& track_set, const TrackScene& scene) {
   std::vector<std::string> warnings = warnings_of(track_set);
   const Overshoots& overshoots = scene.overshoots;
+  if (overshoots.straightened > 0)
+    warnings.push_back(
+        fmt::format("the splines of {} tracks swing out farther than all of their samples are apart, by up "
+                    "to {} (id '{}' "
+                    "after {}), and are replaced by straight lines from sample to sample: see --max-speed "
+                    "and --interpolate "
+                    "linear",
+                    grouped(overshoots.straightened), number(overshoots.most_absurd.size),
+                    overshoots.most_absurd.id, track_set.times.text(overshoots.most_absurd.time)));
   if (overshoots.tracks > 0) {
     warnings.push_back(fmt::format(
         "the splines of {} tracks swing out far beyond their samples, by up to {} (id '{}' after {}): see "

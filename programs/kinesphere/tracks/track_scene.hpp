@@ -36,6 +36,11 @@ struct Swing {
 struct Overshoots {
   std::size_t tracks = 0;  ///< number of tracks with an overshoot
   Swing largest;           ///< by its distance from the straight line between the two samples
+  /// Tracks that swing out absurdly, by more than the diagonal of the box around their samples: their bodies
+  /// go straight on from sample to sample instead. They do not count above.
+  std::size_t straightened = 0;
+  Swing most_absurd;
+  std::vector<bool> is_straight;  ///< by track; empty if there are no such tracks
 };
 
 struct TrackScene {

@@ -33,6 +33,7 @@
 #include "tracks/minima_table.hpp"
 #include "tracks/reading_options.hpp"
 #include "tracks/reading_summary.hpp"
+#include "tracks/sample_steps.hpp"
 #include "tracks/summary_file.hpp"
 #include "tracks/track_file.hpp"
 #include "tracks/track_scene.hpp"
@@ -68,9 +69,9 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Tr
   const auto distances = [&](const std::string& one, const std::string& two) {
     return by_cylinder ? fmt::format("{:>12}  {:>12}", one, two) : fmt::format("{:>12}", one);
   };
-  std::string text = fmt::format("\n{:>24}  {}  {:>14}  {:>12}    {}\n", "closest at",
+  std::string text = fmt::format("\n{:>24}  {}  {:>14}  {:>12}   {:>8}  {}\n", "closest at",
                                  distances(by_cylinder ? "horizontally" : "distance", "vertically"),
-                                 "relative speed", "duration", "ids");
+                                 "relative speed", "duration", "samples", "ids");
   const ImpliedSpeeds speeds(track_set);
   bool any_absurd = false;
   const auto marked = [&](std::uint32_t track, double time) {
@@ -81,15 +82,18 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Tr
   for (const std::size_t k : closest_of(approaches, shown)) {
     const Approach& approach = approaches[k];
     const ClosestApproach& closest = approach.closest;
+    const auto apart = steps_of(approach, track_set).longest();
     text += fmt::format(
-        "{:>24}  {}  {:>14}  {}{:>11}{}  {} {}\n", track_set.times.text(closest.time, 6),
+        "{:>24}  {}  {:>14}  {}{:>11}{} {:>8}  {} {}\n", track_set.times.text(closest.time, 6),
         by_cylinder ? distances(number(horizontal_distance(closest)), number(vertical_distance(closest)))
                     : distances(number(closest.distance), ""),
         number(closest.relative_speed), approach.begins_with_track ? "<" : " ",
         number(approach.end - approach.begin), approach.ends_with_track ? "> " : "  ",
-        marked(approach.first, closest.time), marked(approach.second, closest.time));
+        apart ? number(*apart) : "-", marked(approach.first, closest.time),
+        marked(approach.second, closest.time));
   }
   text += "< close from a track's first sample (or --from) on, > until a track's last sample (or --until)\n";
+  text += "samples: seconds from the sample before to the one after, 0 at a sample, - where there is none\n";
   if (any_absurd)
     text += "(?) samples around that time imply a speed more than 10 times the usual one: see --max-speed\n";
   if (approaches.size() > shown) {
