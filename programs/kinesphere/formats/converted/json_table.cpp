@@ -76,7 +76,7 @@ std::optional<ConvertedTable> table_of_lines(std::string_view text, const std::s
 
 /// Returns a field of a table for a number, or nothing.
 std::string number_field_of(ondemand::value value) {
-  return value.type() == ondemand::json_type::number ? std::string(trimmed(value.raw_json_token())) : "";
+  return value.type() == ondemand::json_type::number ? std::string(token_of(value)) : "";
 }
 
 /// trace: [[seconds since timestamp, latitude, longitude, barometric altitude in ft or "ground", speed,

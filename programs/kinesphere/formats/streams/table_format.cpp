@@ -60,6 +60,8 @@ class CsvFormat final : public ReportFormat {
 
   /// A short stream is asked about at its end.
   void finish(ReportSink& /*sink*/) override {
+    if (choices_.is_recording && !reader_ && !choices_.title.empty())
+      throw UnusableStream(fmt::format("expected positions, but this file ({}) has none", choices_.title));
     if (choices_.is_recording && !reader_)
       throw UnusableStream("expected rows of numbers, but found none" + first_text());
     if (!reader_) check_header();
@@ -128,7 +130,10 @@ class CsvFormat final : public ReportFormat {
   void begin() {
     const TableHead& head = table_.head();
     TableColumns columns = columns_of(head);
-    if (!choices_.title.empty()) columns.format = choices_.title;
+    if (!choices_.title.empty()) {
+      columns.format = choices_.title;
+      columns.is_converted = true;
+    }
     reader_.emplace(head, std::move(columns));
     for (const TableColumns::Body& body : reader_->columns().bodies)
       columns_needed_ = std::max({columns_needed_, body.x + 1, body.y + 1, body.z.value_or(0) + 1});
