@@ -99,12 +99,21 @@ bool overlap(const Stay& a, const Stay& b) {
   return a.from < b.until && b.from < a.until;
 }
 
-bool are_looked_at(const PresentBody& a, const PresentBody& b) {
-  auto one = a.looked_at.begin();
-  auto other = b.looked_at.begin();
-  while (one != a.looked_at.end() && other != b.looked_at.end()) {
-    if (overlap(*one, *other)) return true;
-    one->until < other->until ? ++one : ++other;
+/// What a search of pairs needs of a body, in little memory.
+struct PairedBody {
+  Stay stay;
+  const Stay *looked_at, *behind;  ///< in order
+  bool has_holes;
+};
+
+bool are_looked_at(const PairedBody& a, const PairedBody& b) {
+  const Stay *one = a.looked_at, *other = b.looked_at;
+  while (one != a.behind && other != b.behind) {
+    if (one->from < other->until && other->from < one->until) return true;
+    if (one->until < other->until)
+      ++one;
+    else
+      ++other;
   }
   return false;
 }
@@ -168,17 +177,21 @@ void add_pairs(Coverage& coverage, std::vector<PresentBody>& bodies) {
     if (!body.stay.is_chosen) others.push_back(body.stay);
   }
   coverage.pairs = overlapping_pairs(all) - overlapping_pairs(others);
-  const auto has_holes = [](const PresentBody& body) {
-    return body.looked_at.empty() || !body.holes.empty();
-  };
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!has_holes(bodies[k])) continue;
-    for (std::size_t other = 0; other < bodies.size(); ++other) {
-      if (other == k || (other < k && has_holes(bodies[other]))) continue;
-      if (!bodies[k].stay.is_chosen && !bodies[other].stay.is_chosen) continue;
-      if (!overlap(bodies[k].stay, bodies[other].stay) || are_looked_at(bodies[k], bodies[other])) continue;
+  std::vector<PairedBody> paired;
+  for (const PresentBody& body : bodies) {
+    const Stay* const first = body.looked_at.data();
+    paired.push_back(
+        {body.stay, first, first + body.looked_at.size(), body.looked_at.empty() || !body.holes.empty()});
+  }
+  for (std::size_t k = 0; k < paired.size(); ++k) {
+    const PairedBody& one = paired[k];
+    for (std::size_t later = k + 1; later < paired.size() && paired[later].stay.from <= one.stay.until;
+         ++later) {
+      const PairedBody& other = paired[later];
+      if (!(one.has_holes || other.has_holes) || !(one.stay.is_chosen || other.stay.is_chosen)) continue;
+      if (are_looked_at(one, other) || !overlap(one.stay, other.stay)) continue;
       if (coverage.pairs_never_looked_at++ < named)
-        coverage.first_never_looked_at.emplace_back(bodies[k].presence->id, bodies[other].presence->id);
+        coverage.first_never_looked_at.emplace_back(bodies[k].presence->id, bodies[later].presence->id);
     }
   }
 }

@@ -23,6 +23,21 @@ void add_identity_options(CLI::App& command, IdentityChoice& identities) {
           "Leave out an id, or those at the begin of each line of FILE. May be repeated");
 }
 
+/// Adds options about who is who, and where bodies are that do not say it.
+void add_meaning_options(CLI::App& command, TrackOptions& options) {
+  add_identity_options(command, options.identities);
+  command
+      .add_option("--ground", options.ground,
+                  "Height of aircraft that are on the ground and send none, which are left out else")
+      ->type_name("LENGTH")
+      ->group(input_group);
+  command
+      .add_flag(
+          "--plan", options.is_plan,
+          "Rows are waypoints of plans: however far apart, the way goes straight on from one to the next")
+      ->group(input_group);
+}
+
 }  // namespace
 
 std::string_view name_of(Outside outside) {
@@ -75,17 +90,7 @@ CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& fi
                   "interval of that id when not given")
       ->check(finite_number())
       ->group(input_group);
-  add_identity_options(command, options.identities);
-  command
-      .add_option("--ground", options.ground,
-                  "Height of aircraft that are on the ground and send none, which are left out else")
-      ->type_name("LENGTH")
-      ->group(input_group);
-  command
-      .add_flag(
-          "--plan", options.is_plan,
-          "Rows are waypoints of plans: however far apart, the way goes straight on from one to the next")
-      ->group(input_group);
+  add_meaning_options(command, options);
   return file_option;
 }
 

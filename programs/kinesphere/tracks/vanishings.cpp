@@ -32,17 +32,23 @@ double flat_length(const Vec3& way) { return std::hypot(way.x, way.y); }
 /// Places in square cells of the plane of x and y.
 class PlaceGrid {
  public:
-  explicit PlaceGrid(double cell) : cell_(cell) {}
+  explicit PlaceGrid(double cell) : cell_(cell), may_have_(std::size_t{1} << filter_bits) {}
 
   double cell() const { return cell_; }
-  void add(const Vec3& at, std::uint32_t place) { cells_[key(column(at.x), column(at.y))].push_back(place); }
+  void add(const Vec3& at, std::uint32_t place) {
+    const std::uint64_t cell = key(column(at.x), column(at.y));
+    may_have_[cell >> (64 - filter_bits)] = true;
+    cells_[cell].push_back(place);
+  }
   /// Calls f for the places within the length of a cell, and for some others.
   template <class F>
   void near(const Vec3& at, F f) const {
     const std::int64_t x = column(at.x), y = column(at.y);
     for (std::int64_t i = x - 1; i <= x + 1; ++i) {
       for (std::int64_t j = y - 1; j <= y + 1; ++j) {
-        const auto found = cells_.find(key(i, j));
+        const std::uint64_t cell = key(i, j);
+        if (!may_have_[cell >> (64 - filter_bits)]) continue;
+        const auto found = cells_.find(cell);
         if (found == cells_.end()) continue;
         for (const std::uint32_t place : found->second) f(place);
       }
@@ -51,12 +57,18 @@ class PlaceGrid {
 
  private:
   std::int64_t column(double x) const { return static_cast<std::int64_t>(std::floor(x / cell_)); }
-  /// Different cells may have one key, whose places are then looked at in vain.
+  /// Different cells may have one key, whose places are then looked at in vain. The first bits are mixed
+  /// best.
   static std::uint64_t key(std::int64_t x, std::int64_t y) {
-    return static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(y);
+    return (static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(y)) *
+           0xd1342543de82ef95u;
   }
 
+  /// Most cells are empty; a megabit tells most of these without a search.
+  static constexpr int filter_bits = 20;
+
   double cell_;
+  std::vector<bool> may_have_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
