@@ -11,10 +11,11 @@
 namespace kinesphere::program::outside_test {
 namespace {
 
-/// One hovers at (50, 0) until 4 s, and once flies there from 90 s on; another passes 1 from it at 25 s.
+/// One comes to (50, 0) at 4 s, where its log ends; another passes 1 from there at 25 s. A third begins
+/// beside it at 90 s, and a fourth has one sample.
 std::string hovering() {
   std::string text = "id,time,x,y\n";
-  for (int t = 0; t < 5; ++t) text += fmt::format("hover,{},50,0\n", t);
+  for (int t = 0; t < 5; ++t) text += fmt::format("hover,{},{},0\n", t, 46 + t);
   for (int t = 0; t < 100; ++t) text += fmt::format("pass,{},{},1\n", t, 2 * t);
   for (int t = 90; t < 95; ++t) text += fmt::format("late,{},50,3\n", t);
   return text + "once,60,10,1\n";
@@ -134,12 +135,17 @@ TEST_F(OutsideProgram, FindsApproachesOutsideOfSamples) {
   EXPECT_NE(vanish.out.find("'hover' vanishes at 4, 'pass' 1 from there at 25"), std::string::npos)
       << vanish.out;
   EXPECT_NE(vanish.err.find("--outside stay or go-on"), std::string::npos) << vanish.err;
-  for (const std::string options : {"stay", "stay --interpolate linear", "go-on"}) {
+  const auto expect_at = [&](const std::string& options, const std::string& time) {
     const ProgramRun found = run("tracks " + file + " --distance 1.5 --verify --outside " + options);
     EXPECT_EQ(found.exit_code, 0) << found.err << found.out;
-    EXPECT_NE(found.out.find("\n                      25 "), std::string::npos) << options << found.out;
+    EXPECT_NE(found.out.find("\n                      " + time + " "), std::string::npos)
+        << options << found.out;
     EXPECT_EQ(found.err.find("vanishes"), std::string::npos) << found.err;
-  }
+  };
+  expect_at("stay", "25");
+  expect_at("stay --interpolate linear", "25");
+  expect_at("go-on", "46");
+  expect_at("go-on --interpolate linear", "46");
   expect_wrong_input("tracks " + file + " --distance 1 --outside leave",
                      {"--outside", "go-on|stay|vanish", "'leave'"});
 }
