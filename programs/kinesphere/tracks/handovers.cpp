@@ -17,8 +17,9 @@ namespace {
 /// Steps around a handover from which velocity and length of steps are known. A track of fewer says too
 /// little.
 constexpr std::size_t steps_looked_at = 4;
-/// Factor on the median interval, as for gaps.
-constexpr double largest_gap = 2.5;
+/// Factors on the median interval: of the time in which neither is there, as for gaps, and of that in which
+/// both are, in which they can be compared.
+constexpr double largest_gap = 2.5, largest_overlap = 5.0;
 
 /// Returns the place at a time between the first and the last sample, on straight lines.
 Vec3 place_in(std::span<const TrackSample> samples, double time) {
@@ -80,9 +81,11 @@ double allowance(const TrackEnd& end, const TrackEnd& begin) {
 /// Returns how far apart they are if one may go on as the other.
 std::optional<double> distance_if_one(const TrackEnd& end, const TrackEnd& begin) {
   const bool follows = end.first < begin.first && end.last < begin.last;
-  if (!follows || std::abs(begin.first - end.last) > largest_gap * end.interval) return std::nullopt;
+  if (!follows) return std::nullopt;
   const double step = allowance(end, begin);
-  const double distance = norm(begin.samples.front().position - end.place_at(begin.first));
+  double distance = norm(begin.samples.front().position - end.place_at(begin.first));
+  if (begin.first < end.last && end.last < begin.samples.back().time)
+    distance = std::max(distance, norm(end.samples.back().position - place_in(begin.samples, end.last)));
   const double turn = norm(begin.velocity - end.velocity) * end.interval;
   if (distance > step || turn > step) return std::nullopt;
   return distance;
@@ -108,10 +111,9 @@ std::vector<Candidate> candidates_among(const std::vector<TrackEnd>& ends,
                                         const std::vector<TrackEnd>& begins, const TrackSet& track_set) {
   std::vector<Candidate> found;
   for (const TrackEnd& end : ends) {
-    const double window = largest_gap * end.interval;
-    auto begin = std::lower_bound(begins.begin(), begins.end(), end.last - window,
+    auto begin = std::lower_bound(begins.begin(), begins.end(), end.last - largest_overlap * end.interval,
                                   [](const TrackEnd& each, double time) { return each.first < time; });
-    for (; begin != begins.end() && begin->first <= end.last + window; ++begin) {
+    for (; begin != begins.end() && begin->first <= end.last + largest_gap * end.interval; ++begin) {
       if (begin->presence == end.presence) continue;
       const auto distance = distance_if_one(end, *begin);
       if (distance && !is_ambiguous({*distance, &end, &*begin}, track_set))

@@ -9,12 +9,13 @@
 
 namespace kinesphere::program {
 
-/// Returns the handovers of a track set, by time: an id begins where and when another one ends. The two are
-/// there together, or neither is, for at most 2.5 times the median interval of the one that ends. That one is
-/// then, or would be, where the other one begins, to within half of a step (the mean of the longest of both
-/// around that time), and goes as fast in the same direction, to within half of a step in an interval. No
-/// third body is as near. Each id goes on as one other. Cost: O(ids log ids), O(pairs of ids of which one
-/// begins when the other ends), and O(ids) for each handover.
+/// Returns the handovers of a track set, by time: an id begins where and when another one ends. Both are
+/// there for at most 5 times the median interval of the one that ends, or neither is for at most 2.5 times
+/// that. While both are there, they are within half of a step of each other (the mean of the longest of both
+/// around that time); or the other one begins as near to where this one would be. They go as fast in the same
+/// direction, to within half of a step in an interval. No third body is as near, both have five samples or
+/// more there, and each id goes on as one other. Cost: O(ids log ids), O(pairs of ids of which one begins
+/// when the other ends), and O(ids) for each handover.
 std::vector<Handover> handovers_in(const TrackSet& track_set);
 
 /// Removes the approaches between two ids that are one body, and returns their number.

@@ -396,9 +396,13 @@ TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options)
       throw ProgramError(fmt::format("{}: expected samples at two times or more, but all are at {}",
                                      fmt::join(files, ", "),
                                      track_set.times.text(track_set.times.seconds(*time))));
-    throw ProgramError(
-        fmt::format("{}: expected an id with two samples{}, but there is none", fmt::join(files, ", "),
-                    options.is_plan ? "" : fmt::format(" at most {} s apart", track_set.largest_max_gap)));
+    const std::string all_files = fmt::format("{}", fmt::join(files, ", "));
+    if (options.is_plan)
+      throw ProgramError(fmt::format("{}: expected an id with two waypoints, but there is none", all_files));
+    throw ProgramError(fmt::format(
+        "{}: expected an id with two samples at most {} s apart, but there is none: see --max-gap, "
+        "and --plan where rows are waypoints",
+        all_files, track_set.largest_max_gap));
   }
   return track_set;
 }

@@ -39,6 +39,7 @@ std::vector<std::string> handovers(const std::string& rows) {
 
 TEST(Handovers, AreWhereAndWhenAnotherEnds) {
   const std::vector<std::string> one{"a>b"};
+  EXPECT_EQ(handovers(walk("a", 0, 50, 0, 1) + walk("b", 4.5, 50, 4.5, 1, 0.01)), one) << "both for 0.4 s";
   EXPECT_EQ(handovers(walk("a", 0, 50, 0, 1) + walk("b", 4.8, 50, 4.8, 1, 0.01)), one)
       << "together for a while";
   EXPECT_EQ(handovers(walk("a", 0, 50, 0, 1) + walk("b", 5.0, 50, 5.0, 1)), one) << "one after the other";
@@ -50,6 +51,7 @@ TEST(Handovers, AreWhereAndWhenAnotherEnds) {
 
 TEST(Handovers, AreNoneOfOthers) {
   const std::vector<std::string> none;
+  EXPECT_EQ(handovers(walk("a", 0, 50, 0, 1) + walk("b", 4.2, 50, 4.2, 1)), none) << "too early";
   EXPECT_EQ(handovers(walk("a", 0, 50, 0, 1) + walk("b", 6.0, 50, 6.0, 1)), none) << "too late";
   EXPECT_EQ(handovers(walk("a", 0, 50, 0, 1) + walk("b", 5.0, 50, 5.0, 1, 0.2)), none) << "beside it";
   EXPECT_EQ(handovers(walk("a", 0, 50, 0, 1) + walk("b", 5.0, 50, 5.0, -1)), none) << "the other way";

@@ -123,7 +123,8 @@ TEST(TrackFile, NamesTheLineOfAWrongRow) {
             "--duplicates)");
   EXPECT_EQ(error_in("id,time,x,y\na,0,1,2\na,1,1\n"), "t.txt:3: expected 4 columns, but got 3");
   EXPECT_EQ(error_in("id,time,x,y\na,0,1,2\nb,1,1,2\n"),
-            "t.txt: expected an id with two samples at most 0 s apart, but there is none");
+            "t.txt: expected an id with two samples at most 0 s apart, but there is none: see --max-gap, "
+            "and --plan where rows are waypoints");
   EXPECT_EQ(error_in("id,time,x,y\na,7,1,2\nb,7,1,2\n"),
             "t.txt: expected samples at two times or more, but all are at 7");
 }
