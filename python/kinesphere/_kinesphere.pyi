@@ -305,7 +305,13 @@ class VelocityField(Motion):
     def add(self, t: float, position: Array, velocity: Array, acceleration_limit: float) -> int: ...
 
 class RecordedTracks(Motion):
-    def __init__(self, tracks: Iterable[tuple[Array, Array]]) -> None: ...
+    def __init__(
+        self,
+        tracks: Iterable[tuple[Array, Array]],
+        *,
+        outside: Literal["go-on", "stay", "vanish"] = "go-on",
+    ) -> None: ...
+    def span(self, body: int) -> tuple[float, float]: ...
 
 class FrameMotion(Motion):
     def __init__(

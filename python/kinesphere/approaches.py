@@ -40,10 +40,14 @@ class Approaches:
     approaches["begin"]; some approaches: approaches[approaches["closest_distance"] < 1], approaches[:10].
     """
 
-    def __init__(self, array: npt.NDArray[np.void], probes: int) -> None:
+    def __init__(
+        self, array: npt.NDArray[np.void], probes: int, summary: Optional[dict[str, Any]] = None
+    ) -> None:
         self.array = array
         self.probes = probes
         """How many states certainty took."""
+        self.summary = summary
+        """Of tracks_in: what was read, and what was not looked at (docs/tracks.md). None of tracks."""
 
     def __len__(self) -> int:
         return len(self.array)
@@ -60,7 +64,7 @@ class Approaches:
         if isinstance(key, str):
             values: npt.NDArray[Any] = self.array[key]
             return values
-        return Approaches(self.array[key], self.probes)
+        return Approaches(self.array[key], self.probes, self.summary)
 
     def __repr__(self) -> str:
         return f"<{len(self)} approaches>"

@@ -47,7 +47,7 @@ def _motion(kind: type[Motion], options: dict[str, Any], bodies: int) -> Motion:
     """One with this many bodies that rest at the origin."""
     place = (0.0, 0.0, 0.0)
     if issubclass(kind, RecordedTracks):
-        return kind([((0.0, 1.0), (place, place))] * bodies)
+        return kind([((0.0, 1.0), (place, place))] * bodies, **options)
     motion: Motion = made(kind, (), {**options, "positions": [place] * bodies})
     return motion
 

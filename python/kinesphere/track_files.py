@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import csv
+import json
 import os
-import re
 import tempfile
 from pathlib import Path
-from typing import Any, Literal, Optional, Sequence, Union
+from typing import Any, Literal, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -35,9 +35,15 @@ def tracks_in(
     duplicates: Literal["fail", "first", "mean"] = "fail",
     max_speed: Optional[float] = None,
     max_gap: Optional[float] = None,
-    interpolate: Literal["spline", "linear"] = "spline",
+    plan: bool = False,
+    interpolate: Optional[Literal["spline", "linear"]] = None,
+    outside: Literal["vanish", "stay", "go-on"] = "vanish",
     tolerance: Optional[float] = None,
     sizes: bool = False,
+    same: Union[str, Sequence[str], Mapping[str, str], None] = None,
+    ignore: Union[str, Sequence[str], None] = None,
+    count_handovers: bool = False,
+    ground: Union[float, str, None] = None,
     from_: Union[float, str, None] = None,
     until: Union[float, str, None] = None,
     only: Union[str, int, Sequence[Union[str, int]], None] = None,
@@ -60,11 +66,20 @@ def tracks_in(
     dates: what 03/04/2025 begins with. frame_rate: frames per second. time_unit, unit: of numbers whose column
     does not say it. positions: what x and y are: "plane", "lonlat", or a zone as "utm:33N". altitude: which one
     is the height of aircraft in messages.
+    plan: rows are waypoints, between which ways go straight on however far apart these are. interpolate: "spline",
+    or in a plan "linear", when not given. outside: before its first and after its last sample a body is not there, stays
+    at that sample, or goes straight on.
+    same: ids that are other ids, as {"17": "18"} or "17=18". ignore: ids to leave out. Both may be "@FILE".
     All others are the options of the program of that name (docs/tracks.md).
     program: where it is, if not in PATH.
 
     Ids are texts. Times are numbers of the file's unit, or datetime64 (in UTC where the file says a zone);
-    frames are seconds since frame 0. Positions are those of the file, with NaN as z of motion in a plane.
+    frames are seconds since frame 0. first_before, first_after, second_before and second_after are the times of the samples
+    between which closest_time lies, and samples_apart the longer of the two times between them, in seconds. Positions are those of the file, with NaN as z of motion in a plane.
+
+    The result's summary is what `kinesphere tracks --summary` writes: what was read, and what was not looked at, as
+    "not_looked_at_s" of the seconds "together_s" that pairs are there together, "pairs_never_looked_at" and
+    "ids_without_track". A warning tells it where it is much, or where no approach is found.
 
     Raises InvalidValue with the program's question or error, FileNotFoundError without the program; what the
     program warns about becomes a warning.
@@ -73,22 +88,24 @@ def tracks_in(
         raise TypeError("tracks_in: either distance or separation must be given")
     names = [files] if isinstance(files, (str, os.PathLike)) else list(files)
     ids = only if only is None or isinstance(only, (str, int)) else ",".join(map(str, only))
+    joined = [f"{one}={other}" for one, other in same.items()] if isinstance(same, Mapping) else same
     options: dict[str, Any] = {
         "format": format, "columns": columns, "where": where, "dates": dates, "frame_rate": frame_rate,
         "time_unit": time_unit, "unit": unit, "positions": positions, "projection": projection,
         "altitude": altitude, "missing": missing, "duplicates": duplicates, "max_speed": max_speed,
-        "max_gap": max_gap, "interpolate": interpolate, "tolerance": tolerance, "sizes": sizes,
+        "max_gap": max_gap, "plan": plan, "interpolate": interpolate, "outside": outside, "tolerance": tolerance, "sizes": sizes,
+        "same": joined, "ignore": ignore, "count_handovers": count_handovers, "ground": ground,
         "from": from_, "until": until, "only": ids, "min_duration": min_duration,
         "distance": distance, "separation": separation,
     }  # fmt: skip
     with tempfile.TemporaryDirectory() as folder:
-        table = Path(folder) / "approaches.csv"
-        options["contacts"] = table
-        printed = run_program("tracks_in", program, "tracks", options, names, argument="files")
+        table, written = Path(folder) / "approaches.csv", Path(folder) / "summary.json"
+        options |= {"contacts": table, "summary": written, "quiet": True}
+        run_program("tracks_in", program, "tracks", options, names, argument="files")
         with table.open(newline="") as lines:
             rows = list(csv.DictReader(lines))
-    probes = re.search(r"^probes +([\d,]+)", printed, re.MULTILINE)
-    return Approaches(_array_of(rows), int(probes[1].replace(",", "")) if probes else 0)
+        summary = json.loads(written.read_text())
+    return Approaches(_array_of(rows), summary["probes"], summary)
 
 
 def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:
@@ -98,7 +115,16 @@ def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:
     def numbers(name: str) -> npt.NDArray[np.float64]:
         """Of a column whose name may have a unit behind it."""
         return np.array(
-            [float(row.get(name) or row.get(f"{name}_m") or row.get(f"{name}_mps") or "nan") for row in rows]
+            [
+                float(
+                    row.get(name)
+                    or row.get(f"{name}_m")
+                    or row.get(f"{name}_mps")
+                    or row.get(f"{name}_s")
+                    or "nan"
+                )
+                for row in rows
+            ]
         )
 
     def place(of: str) -> npt.NDArray[np.float64]:
@@ -118,6 +144,9 @@ def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:
         "second_position": place("second"),
         "relative_speed": numbers("relative_speed"),
     }
+    for name in ("first_before", "first_after", "second_before", "second_after"):
+        columns[name] = _times(text(name))
+    columns["samples_apart"] = numbers("samples_apart")
     for name in ("horizontal_distance", "vertical_distance"):
         if rows and {name, f"{name}_m"} & rows[0].keys():
             columns[name] = numbers(name)
@@ -129,8 +158,8 @@ def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:
 
 
 def _times(texts: list[str]) -> npt.NDArray[Any]:
-    """Numbers, or dates: all are of one kind."""
+    """Numbers, or dates: all are of one kind, and what is empty is NaN or NaT."""
     try:
-        return np.array([float(text) for text in texts])
+        return np.array([float(text or "nan") for text in texts])
     except ValueError:
-        return np.array([text.removesuffix("Z") for text in texts], dtype="datetime64[ns]")
+        return np.array([text.removesuffix("Z") or "NaT" for text in texts], dtype="datetime64[ns]")

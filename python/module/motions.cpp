@@ -2,11 +2,14 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "errors.hpp"
 #include "exchange.hpp"
@@ -146,6 +149,21 @@ py::dict definitions_at(MotionHandle& handle, double time, const py::object& nam
 }
 
 // What the constructor of a motion needs beside the start of its bodies, for pickle.
+constexpr std::array<std::pair<const char*, Outside>, 3> outsides{
+    {{"go-on", Outside::go_on}, {"stay", Outside::stay}, {"vanish", Outside::vanish}}};
+
+const char* name_of(Outside outside) {
+  return std::find_if(outsides.begin(), outsides.end(),
+                      [&](const auto& each) { return each.second == outside; })
+      ->first;
+}
+
+Outside outside_of(const std::string& name) {
+  for (const auto& [each, outside] : outsides)
+    if (name == each) return outside;
+  refuse({"RecordedTracks", "outside"}, "must be 'go-on', 'stay' or 'vanish'", "'" + name + "'");
+}
+
 py::dict common_arguments(const Ballistic& motion) {
   py::dict arguments;
   arguments["gravity"] = py::tuple(array_of(motion.gravity()).attr("tolist")());
@@ -167,7 +185,11 @@ py::dict common_arguments(const VelocityField& motion) {
   return arguments;
 }
 py::dict common_arguments(const SteeredMotion&) { return {}; }
-py::dict common_arguments(const RecordedTracks&) { return {}; }
+py::dict common_arguments(const RecordedTracks& motion) {
+  py::dict arguments;
+  arguments["outside"] = name_of(motion.outside());
+  return arguments;
+}
 py::dict common_arguments(const FrameMotion& motion) {
   py::dict arguments;
   arguments["interval"] = motion.interval();
@@ -456,12 +478,26 @@ void bind_recorded(py::module_& module) {
       R"(Bodies that go along the natural cubic splines through samples of their positions.
 
 tracks has a pair (times, positions) for each body: times of shape (k,), rising, k >= 2; positions of shape
-(k, 3) or (k, 2). The promise of each is the largest acceleration of its curve. Before the first and after
-the last sample it goes straight on. Bodies can be removed, but not be changed.)")
-      .def(py::init([](const py::iterable& tracks) {
-             return std::make_shared<HandleOf<RecordedTracks>>(RecordedTracks::create(tracks_of(tracks)));
+(k, 3) or (k, 2). The promise of each is the largest acceleration of its curve. Bodies can be removed, but not
+be changed.
+
+outside: before its first and after its last sample a body goes straight on ("go-on"), stays at that sample
+("stay": its curve begins and ends at rest, which bends its first and last steps), or is not there ("vanish": add
+it to a world no earlier and remove it no later than span(body) says, because asking for another time is an
+error).)")
+      .def(py::init([](const py::iterable& tracks, const std::string& outside) {
+             return std::make_shared<HandleOf<RecordedTracks>>(
+                 RecordedTracks::create(tracks_of(tracks), outside_of(outside)));
            }),
-           py::arg("tracks"));
+           py::arg("tracks"), py::kw_only(), py::arg("outside") = "go-on")
+      .def(
+          "span",
+          [](HandleOf<RecordedTracks>& handle, std::uint32_t body) {
+            const auto turn = handle.in_use.take_alone("span", "motion");
+            const auto& motion = static_cast<const RecordedTracks&>(*handle.motion);
+            return std::pair(motion.first_time(body), motion.last_time(body));
+          },
+          py::arg("body"), "The times of the body's first and last sample.");
 
   auto frames = bind_kind<FrameMotion>(
       module, "FrameMotion",

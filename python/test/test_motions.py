@@ -326,6 +326,33 @@ def test_recorded_tracks() -> None:
         ks.RecordedTracks([([0.0, 1.0],)])  # type: ignore[list-item]
 
 
+def test_recorded_tracks_outside_of_their_samples() -> None:
+    samples = [([0, 1, 2], [[0, 0, 0], [3, 0, 0], [4, 0, 0]])]
+    places, velocities = ks.RecordedTracks(samples).states(4.0)
+    assert velocities[0][0] > 0 and places[0][0] == pytest.approx(4 + 2 * velocities[0][0])
+    stays = ks.RecordedTracks(samples, outside="stay")
+    for time, x in ((9.0, 4), (-9.0, 0)):
+        places, velocities = stays.states(time)
+        assert places[0] == pytest.approx([x, 0, 0], abs=1e-12)
+        assert velocities[0] == pytest.approx([0, 0, 0], abs=1e-12)
+    vanishes = copy.copy(ks.RecordedTracks(samples, outside="vanish"))
+    assert vanishes.span(0) == (0.0, 2.0)
+    assert vanishes.states(2.0)[0][0][0] == pytest.approx(4)
+    with pytest.raises(
+        ks.InvalidValue, match="must not lie after its last sample, because it has vanished"
+    ) as error:
+        vanishes.states(2.5)
+    assert error.value.code == "out_of_range"
+    with pytest.raises(ks.InvalidValue, match="'go-on', 'stay' or 'vanish'"):
+        ks.RecordedTracks(samples, outside="leave")  # type: ignore[arg-type]
+    pair = ks.RecordedTracks([*samples, ([0, 2], [[9, 0, 0], [6, 0, 0]])], outside="vanish")
+    world = ks.World()
+    world.add_motion(pair, radii=0.5)
+    assert len(world.run(2.0, pair)) == 0
+    with pytest.raises(ks.InvalidValue, match="has vanished"):
+        world.run(9.0, pair)
+
+
 def test_a_motion_is_added_where_its_numbers_are_ids() -> None:
     world, motion = pair()
     with pytest.raises(ks.InvalidValue, match="without bodies"):

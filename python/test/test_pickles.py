@@ -55,6 +55,9 @@ def test_tracks_and_sources_come_back() -> None:
     tracks.remove(0)
     again = through(tracks)
     assert 0 not in again and np.array_equal(again.states(2.0)[0], tracks.states(2.0)[0])
+    vanishing = through(ks.RecordedTracks([([0, 1], [[0, 0, 0], [1, 0, 0]])], outside="vanish"))
+    with pytest.raises(ks.InvalidValue, match="has vanished"):
+        vanishing.states(2.0)
     source = ks.MotionSource(moved, positions, velocities)
     source.set_origin(20, 1.0, (1, 2, 3), (4, 5, 6))
     assert (

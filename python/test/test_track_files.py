@@ -32,6 +32,7 @@ def test_files_and_arrays_have_the_same_approaches(tmp_path: Path) -> None:
     for column in ("begin", "end", "closest_time", "closest_distance", "relative_speed"):
         assert found[column][0] == pytest.approx(same[column][0], abs=1e-6)
     assert found["first_position"][0][:2] == pytest.approx(same["first_position"][0][:2], abs=1e-6)
+    assert (found["first_before"][0], found["second_after"][0], found["samples_apart"][0]) == (1, 1, 0)
     assert np.isnan(found["first_position"][0][2]) and not found["begins_with_track"][0]
 
 
@@ -81,3 +82,47 @@ def test_questions_are_errors_and_warnings_are_warnings(tmp_path: Path) -> None:
         ks.tracks_in(half, 1, missing="skip", program=program)
     with pytest.raises(FileNotFoundError):
         ks.tracks_in(half, 1, program=tmp_path / "none")
+
+
+def test_what_was_not_looked_at_is_a_warning_and_in_the_summary(tmp_path: Path) -> None:
+    rows = [(0, 0, 50), (10, 10, 40), (20, 20, 30), (80, 80, -30), (90, 90, -40)]
+    plans = written(
+        tmp_path, "id,time,x,y\n" + "".join(f"a,{t},{x},0\nb,{t},50,{y}\n" for t, x, y in rows) + "c,30,0,0\n"
+    )
+    with pytest.warns(UserWarning) as warned:
+        found = ks.tracks_in(plans, 5, program=program)
+    said = [str(one.message) for one in warned]
+    assert any("not looked for in 60 s of the 90 s" in text for text in said), said
+    assert any("have no track" in text and "'c'" in text for text in said), said
+    assert found.summary is not None
+    assert (len(found), found.summary["not_looked_at_s"], found.summary["together_s"]) == (0, 60, 90)
+    assert (found.summary["pairs"], found.summary["pairs_never_looked_at"]) == (3, 2)
+    assert found[:0].summary == found.summary
+    with pytest.warns(UserWarning, match="have no track"):
+        flown = ks.tracks_in(plans, 5, plan=True, program=program)
+    assert flown["closest_time"][0] == pytest.approx(50)
+    assert flown.summary is not None and flown.summary["not_looked_at_s"] == 0
+
+
+def test_a_body_that_stays_after_its_last_sample(tmp_path: Path) -> None:
+    rows = "".join(f"hover,{t},50,0\n" for t in range(5)) + "".join(
+        f"pass,{t},{2 * t},1\n" for t in range(50)
+    )
+    file = written(tmp_path, "id,t,x,y\n" + rows)
+    with pytest.warns(UserWarning, match="'hover' vanishes at 4, 'pass' 1 from there at 25"):
+        found = ks.tracks_in(file, 1.5, program=program)
+    assert len(found) == 0 and found.summary is not None and found.summary["near_ends"] == 1
+    assert ks.tracks_in(file, 1.5, outside="stay", program=program)["closest_time"][0] == pytest.approx(25)
+
+
+def test_ids_that_are_one_body_or_of_no_interest(tmp_path: Path) -> None:
+    rows = "".join(f"a,{t},{t},0\n" for t in range(50)) + "".join(f"b,{t},{t},0.1\n" for t in range(47, 99))
+    rows += "".join(f"c,{t},{t},0.5\n" for t in range(99))
+    file = written(tmp_path, "id,t,x,y\n" + rows)
+    with pytest.warns(UserWarning, match="'a' goes on as 'b' at 47"):
+        found = ks.tracks_in(file, 0.2, ignore="c", program=program)
+    assert len(found) == 0 and found.summary is not None
+    assert found.summary["handovers"] == [{"from": "a", "to": "b", "at": 47}]
+    assert len(ks.tracks_in(file, 0.6, ignore=["a"], program=program)) == 1
+    joined = ks.tracks_in(file, 0.6, same={"a": "b"}, duplicates="first", program=program)
+    assert len(joined) == 1 and joined["begin"][0] == 0

@@ -15,9 +15,19 @@ enum class Interpolation {
   linear,  ///< straight on: never beyond the samples, with a sudden turn at each
 };
 
-/// Makes a scene with a body for each track. Its radius is half of `distance` (length), and it is there from
-/// the first sample to the last. The caller sets the tolerance of the world and the number of dimensions.
-/// Precondition: there is at least one track. Errors: as RecordedTracks::create().
-Result<Scene> scene_of_tracks(const std::vector<Track>& tracks, double distance, Interpolation interpolation);
+/// When the body of a track is there: at least from its first sample to its last. Outside of these it stays
+/// where it rests, and goes straight on elsewhere.
+struct TrackStay {
+  double from, until;
+  RestingEnds rests{};
+};
+
+/// Makes a scene with a body for each track. Its radius is half of `distance` (length), and it is there for
+/// its stay; without stays, from the first sample to the last. Bodies of which `is_straight` is true go
+/// straight on from sample to sample whatever the interpolation; empty for none. The caller sets the
+/// tolerance of the world and the number of dimensions. Precondition: there is at least one track, and a stay
+/// and an entry of `is_straight` for each if there are any. Errors: as RecordedTracks::create().
+Result<Scene> scene_of_tracks(const std::vector<Track>& tracks, double distance, Interpolation interpolation,
+                              std::vector<TrackStay> stays = {}, const std::vector<bool>& is_straight = {});
 
 }  // namespace kinesphere

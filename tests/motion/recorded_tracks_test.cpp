@@ -92,6 +92,81 @@ TEST(RecordedTracks, AreTheNaturalSpline) {
   EXPECT_DOUBLE_EQ(motion.state(0, 1.0).velocity.x, 0.0);
 }
 
+/// Returns the energy of the bending, the integral of |acceleration|^2.
+double bending(const RecordedTracks& motion) {
+  double sum = 0.0;
+  for (const Segment& segment : motion.trajectory(0, motion.first_time(0), motion.last_time(0))) {
+    const Vec3 &a = segment.acceleration, b = segment.acceleration_at(segment.end);
+    sum += (segment.end - segment.begin) / 3.0 * (dot(a, a) + dot(a, b) + dot(b, b));
+  }
+  return sum;
+}
+
+RC_GTEST_PROP(RecordedTracks, StayAtTheirEnds, (std::uint64_t seed)) {
+  Random random(seed);
+  const Track track = random_track(random, *rc::gen::inRange<std::size_t>(2, 40));
+  const auto motion = RecordedTracks::create({track}, Outside::stay).value();
+  const double speed = motion.definition(0, track.front().time).acceleration_limit;
+  for (const TrackSample& sample : track)
+    RC_ASSERT(norm(motion.state(0, sample.time).position - sample.position) < 1e-9);
+  for (const TrackSample* end : {&track.front(), &track.back()}) {
+    RC_ASSERT(norm(motion.state(0, end->time).velocity) <= 1e-12 * (1.0 + speed));
+    const double outside = end == &track.front() ? end->time - 9.0 : end->time + 9.0;
+    RC_ASSERT(norm(motion.state(0, outside).position - end->position) <= 1e-10 * (1.0 + speed));
+  }
+  RC_ASSERT(bending(motion) >= bending(tracks_of(track)) * (1.0 - 1e-9));
+}
+
+// From rest to rest in one step: 3 s^2 - 2 s^3.
+TEST(RecordedTracks, StayAfterAStepFromRestToRest) {
+  const auto motion = RecordedTracks::create({{{1.0, {0, 0, 0}}, {2.0, {4, 0, 0}}}}, Outside::stay).value();
+  EXPECT_DOUBLE_EQ(motion.state(0, 1.25).position.x, 4.0 * (3.0 / 16 - 2.0 / 64));
+  EXPECT_DOUBLE_EQ(motion.state(0, 99.0).position.x, 4.0);
+  EXPECT_EQ(motion.state(0, -99.0).position.x, 0.0);
+}
+
+TEST(RecordedTracks, RestAtOneEndAlone) {
+  const Track track{{0.0, {0, 0, 0}}, {1.0, {1, 0, 0}}};
+  const auto motion = RecordedTracks::create({track, track}, {{.first = true}, {.last = true}}).value();
+  EXPECT_DOUBLE_EQ(motion.state(0, 0.0).velocity.x, 0.0);
+  EXPECT_DOUBLE_EQ(motion.state(0, 1.0).velocity.x, 1.5);
+  EXPECT_DOUBLE_EQ(motion.state(1, 0.0).velocity.x, 1.5);
+  EXPECT_DOUBLE_EQ(motion.state(1, 1.0).velocity.x, 0.0);
+  const auto wrong = RecordedTracks::create({track, track}, std::vector<RestingEnds>(1));
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().message,
+            "RecordedTracks::create: ends must be one for each track, and so 2, but is 1");
+}
+
+TEST(RecordedTracks, AreAskedWithinTheirSamplesAloneIfTheyVanish) {
+  const auto motion = RecordedTracks::create({{{2.0, {0, 0, 0}}, {4.0, {4, 0, 0}}}}, Outside::vanish).value();
+  const auto clone = motion.clone();
+  EXPECT_EQ(clone->state(0, 4.0).position.x, 4.0);
+  EXPECT_EQ(clone->definition(0, 2.0).position.x, 0.0);
+  EXPECT_EQ(clone->trajectory(0, 2.5, 4.0).size(), 1u);
+  const auto expect_refused = [&](auto question, const std::string& message) {
+    try {
+      question();
+      ADD_FAILURE() << message;
+    } catch (const BadResult& refused) {
+      EXPECT_EQ(refused.error().code, ErrorCode::out_of_range);
+      EXPECT_EQ(refused.error().message, message);
+    }
+  };
+  expect_refused(
+      [&] { clone->state(0, 4.5); },
+      "state: t of body 0 must not lie after its last sample, because it has vanished then: 4, but "
+      "is 4.5");
+  expect_refused(
+      [&] { clone->definition(0, 1.5); },
+      "state: t of body 0 must not lie before its first sample, because it is not there yet: 2, but "
+      "is 1.5");
+  expect_refused(
+      [&] { clone->trajectory(0, 3.0, 5.0); },
+      "trajectory: end of body 0 must not lie after its last sample, because it has vanished then: "
+      "4, but is 5");
+}
+
 std::string error_of(const Track& wrong) {
   const auto result = RecordedTracks::create({{{0.0, {}}, {1.0, {}}}, wrong});
   if (result) return "none";

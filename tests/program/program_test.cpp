@@ -261,9 +261,11 @@ TEST_F(ProgramTest, FindsApproachesInTracks) {
   const auto rows = rows_of(read_text(path("a.csv")));
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0],
-            (std::vector<std::string>{"begin", "end", "first", "second", "begins_with_track",
-                                      "ends_with_track", "closest_time", "distance", "first_x", "first_y",
-                                      "first_z", "second_x", "second_y", "second_z", "relative_speed"}));
+            (std::vector<std::string>{
+                "begin",           "end",          "first",         "second",       "begins_with_track",
+                "ends_with_track", "closest_time", "distance",      "first_x",      "first_y",
+                "first_z",         "second_x",     "second_y",      "second_z",     "relative_speed",
+                "first_before",    "first_after",  "second_before", "second_after", "samples_apart_s"}));
   const auto expect_row = [&](std::size_t row, double begin, double end,
                               const std::vector<std::string>& others) {
     EXPECT_NEAR(std::stod(rows[row][0]), begin, 1e-7);
@@ -292,7 +294,7 @@ TEST_F(ProgramTest, TellsWhereTracksCameClosest) {
   ASSERT_EQ(rows.size(), 4u);
   const auto numbers = [&](std::size_t row) {
     std::vector<double> values;
-    for (std::size_t column = 6; column < rows[row].size(); ++column)
+    for (std::size_t column = 6; column < 15; ++column)
       values.push_back(rows[row][column].empty() ? -1.0 : std::stod(rows[row][column]));
     return values;
   };

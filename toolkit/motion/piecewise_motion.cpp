@@ -101,8 +101,8 @@ Result<PiecewiseMotion> PiecewiseMotion::create(std::vector<Trajectory> trajecto
   return PiecewiseMotion(std::move(trajectories));
 }
 
-PiecewiseMotion::PiecewiseMotion(std::vector<Trajectory> trajectories)
-    : trajectories_(std::move(trajectories)) {
+PiecewiseMotion::PiecewiseMotion(std::vector<Trajectory> trajectories, bool ends_with_trajectories)
+    : trajectories_(std::move(trajectories)), ends_with_trajectories_(ends_with_trajectories) {
   limits_.reserve(trajectories_.size());
   for (Trajectory& trajectory : trajectories_) {
     limits_.push_back(limit_of(trajectory));
@@ -115,6 +115,23 @@ const Trajectory& PiecewiseMotion::known_trajectory(std::uint32_t body, double t
   if (!contains(body) || !std::isfinite(t)) [[unlikely]]
     refuse_question(call, *this, body, argument, t, {-infinity, infinity});
   return trajectories_[body];
+}
+
+void PiecewiseMotion::require_within(std::uint32_t body, double t, std::string_view call,
+                                     std::string_view argument) const {
+  if (!ends_with_trajectories_) return;
+  const double first = trajectories_[body].front().begin, last = trajectories_[body].back().begin;
+  if (first <= t && t <= last) [[likely]]
+    return;
+  const Subject subject{argument, {body, 0}};
+  detail::bad_result(
+      InputCheck(call)
+          .require(t >= first, ErrorCode::out_of_range, subject,
+                   "must not lie before its first sample, because it is not there yet:", first, t)
+          .require(t <= last, ErrorCode::out_of_range, subject,
+                   "must not lie after its last sample, because it has vanished then:", last, t)
+          .error()
+          .value());
 }
 
 double PiecewiseMotion::first_time(std::uint32_t body) const {
@@ -132,6 +149,7 @@ BodyDefinition PiecewiseMotion::definition(std::uint32_t body, double t) const {
 
 State PiecewiseMotion::state(std::uint32_t body, double t) const {
   const Trajectory& known = known_trajectory(body, t, "state", "t");
+  require_within(body, t, "state", "t");
   if (t < known.front().begin) return lead_in(body, t).state_at(t);
   return piece_at(known, t)->state_at(t);
 }
@@ -141,6 +159,8 @@ Trajectory PiecewiseMotion::trajectory(std::uint32_t body, double begin, double 
   const Trajectory& known = known_trajectory(body, begin, call, "begin");
   if (!std::isfinite(end)) refuse_question(call, *this, body, "end", end, {begin, infinity});
   if (end < begin) refuse_order(call, body, begin, end);
+  require_within(body, begin, call, "begin");
+  require_within(body, end, call, "end");
   Trajectory result;
   if (begin < known.front().begin) result.push_back(lead_in(body, begin));
   auto segment = piece_at(known, begin);

@@ -45,17 +45,20 @@ class PiecewiseMotion : public Motion {
   double last_time(std::uint32_t body) const;
 
  protected:
-  /// Needs trajectories that create() would accept.
-  explicit PiecewiseMotion(std::vector<Trajectory> trajectories);
+  /// Needs trajectories that create() would accept. With `ends_with_trajectories`, a question about a time
+  /// outside of a body's trajectory is an error, out_of_range.
+  explicit PiecewiseMotion(std::vector<Trajectory> trajectories, bool ends_with_trajectories = false);
 
  private:
   Segment lead_in(std::uint32_t body, double t) const;
   const Trajectory& known_trajectory(std::uint32_t body, double t, std::string_view call,
                                      std::string_view argument) const;
+  void require_within(std::uint32_t body, double t, std::string_view call, std::string_view argument) const;
 
   /// Trajectories, each extended by an infinite segment of constant velocity. Empty for removed bodies.
   std::vector<Trajectory> trajectories_;
   std::vector<double> limits_;
+  bool ends_with_trajectories_ = false;
   std::vector<std::uint32_t> free_;  ///< numbers of removed bodies
 };
 

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <string_view>
 
@@ -28,20 +29,23 @@ double window_time(const std::string& text, std::string_view option, const Track
 
 TimeWindow span_of(const TrackSet& track_set) {
   const RecordedTrack& any = track_set.tracks.front();
-  TimeWindow span{any.samples.front().time, any.samples.back().time};
+  TimeWindow span{any.from(), any.until()};
   for (const RecordedTrack& track : track_set.tracks) {
-    span.from = std::min(span.from, track.samples.front().time);
-    span.until = std::max(span.until, track.samples.back().time);
+    span.from = std::min(span.from, track.from());
+    span.until = std::max(span.until, track.until());
   }
   return span;
 }
 
-TimeWindow chosen_window(const ApproachChoice& choice, const TrackSet& track_set) {
+TimeWindow asked_window(const ApproachChoice& choice, const TrackSet& track_set) {
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
+  return {choice.from.empty() ? -unbounded : window_time(choice.from, "--from", track_set),
+          choice.until.empty() ? unbounded : window_time(choice.until, "--until", track_set)};
+}
+
+TimeWindow chosen_window(const ApproachChoice& choice, const TimeWindow& asked, const TrackSet& track_set) {
   const TimeWindow span = span_of(track_set);
-  TimeWindow window = span;
-  if (!choice.from.empty()) window.from = std::max(span.from, window_time(choice.from, "--from", track_set));
-  if (!choice.until.empty())
-    window.until = std::min(span.until, window_time(choice.until, "--until", track_set));
+  const TimeWindow window{std::max(span.from, asked.from), std::min(span.until, asked.until)};
   if (window.from >= span.until && !choice.from.empty())
     throw ProgramError(fmt::format("--from: expected a time before the recording's end {}, but got '{}'",
                                    track_set.times.text(span.until), choice.from));
@@ -115,7 +119,8 @@ void add_choice_options(CLI::App& command, ApproachChoice& choice) {
 }
 
 ApproachFilter::ApproachFilter(const ApproachChoice& choice, const TrackSet& track_set)
-    : window_(chosen_window(choice, track_set)),
+    : asked_(asked_window(choice, track_set)),
+      window_(chosen_window(choice, asked_, track_set)),
       only_(chosen_tracks(choice, track_set)),
       min_duration_(least_duration(choice)) {}
 

@@ -40,11 +40,17 @@ class ApproachFilter {
 
   /// The chosen part of the track set; from < until unless all samples have one time.
   const TimeWindow& window() const { return window_; }
+  /// What --from and --until say; infinite where they say nothing.
+  const TimeWindow& asked() const { return asked_; }
+  /// True if approaches of this id are wanted, with any other.
+  bool wants(const Presence& presence) const {
+    return only_.empty() || (presence.tracks > 0 && only_[presence.first_track]);
+  }
   /// Removes approaches that are not wanted.
   LeftOut apply(std::vector<Approach>& approaches) const;
 
  private:
-  TimeWindow window_;
+  TimeWindow asked_, window_;
   std::vector<bool> only_;  ///< by track; empty for all
   double min_duration_;
 };

@@ -10,6 +10,7 @@
 
 #include "base/program_error.hpp"
 #include "number/infinity.hpp"
+#include "tracks/sample_steps.hpp"
 #include "tracks/track_cells.hpp"
 #include "tracks/track_scene.hpp"
 
@@ -50,6 +51,8 @@ std::vector<std::string> approach_columns(const TrackSet& track_set, bool by_cyl
                                    with_unit("relative_speed", Measure::speed)};
   if (by_cylinder)
     columns.insert(columns.end(), {with_unit("horizontal_distance"), with_unit("vertical_distance")});
+  columns.insert(columns.end(), {"first_before", "first_after", "second_before", "second_after",
+                                 with_unit("samples_apart", Measure::time)});
   return columns;
 }
 
@@ -67,6 +70,11 @@ std::vector<Cell> approach_cells(const Approach& approach, const TrackSet& track
   add_position(cells, closest.second, track_set);
   cells.emplace_back(closest.relative_speed);
   if (by_cylinder) cells.insert(cells.end(), {horizontal_distance(closest), vertical_distance(closest)});
+  const ApproachSteps steps = steps_of(approach, track_set);
+  for (const SampleStep& step : {steps.first, steps.second})
+    for (const std::optional<double>& time : {step.before, step.after})
+      cells.push_back(time ? time_cell(track_set.times, *time) : Cell());
+  cells.push_back(steps.longest() ? Cell(*steps.longest()) : Cell());
   return cells;
 }
 

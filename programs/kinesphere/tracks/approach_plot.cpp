@@ -165,17 +165,19 @@ class Picture {
   /// Returns the curve of a track, without points that move it by less than half a pixel.
   std::vector<Point> course(std::uint32_t track, const View& view, const Panel& panel) const {
     std::vector<Point> points;
-    const auto& samples = track_set_.tracks[track].samples;
+    const RecordedTrack& recorded = track_set_.tracks[track];
+    const auto& samples = recorded.samples;
     const auto add = [&](double time, bool always) {
       const Point at = view.of(in_file(scene_.motion->state(track, time).position));
       const Point pixel{panel.x(at.x), panel.y(at.y)};
       if (points.empty() || always || std::hypot(pixel.x - points.back().x, pixel.y - points.back().y) > 0.5)
         points.push_back(pixel);
     };
+    add(recorded.from(), true);
     for (std::size_t k = 0; k + 1 < samples.size(); ++k)
       for (int part = 0; part < piece_points; ++part)
         add(samples[k].time + (samples[k + 1].time - samples[k].time) * part / piece_points, false);
-    add(samples.back().time, true);
+    add(recorded.until(), true);
     return points;
   }
 

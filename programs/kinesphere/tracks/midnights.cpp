@@ -38,7 +38,7 @@ std::vector<ClockRow> clocks_of(std::vector<RawTrack>& tracks, std::uint32_t fil
   for (std::size_t track = 0; track < tracks.size(); ++track) {
     for (RawSample& sample : tracks[track].samples)
       if (sample.place.file == file) clocks.push_back({sample.place, track, &sample.time});
-    for (RawTrack::Break& at : tracks[track].breaks)
+    for (RawTrack::Placeless& at : tracks[track].timed_placeless)
       if (at.place.file == file) clocks.push_back({at.place, track, &at.time});
   }
   std::stable_sort(clocks.begin(), clocks.end(),

@@ -15,12 +15,16 @@
 #include "base/program_error.hpp"
 #include "formats/converted/converted_table.hpp"
 #include "formats/converted/file_kind.hpp"
+#include "formats/fields/units.hpp"
 #include "formats/tables/header_line.hpp"
 #include "formats/tables/row_reader.hpp"
 #include "tracks/midnights.hpp"
 
 namespace kinesphere::program {
 namespace {
+
+/// Height of a sample without one, until all samples have come.
+constexpr double unknown_height = std::numeric_limits<double>::quiet_NaN();
 
 bool is_date(TimeKind kind) { return kind == TimeKind::date || kind == TimeKind::utc; }
 
@@ -63,10 +67,11 @@ class RawTrackSet::FileReader final : public ReportSink {
       if (reader_->rows()->columns().times_are_clocks) track_set_.pass_clocks_through_midnights();
       note_orders();
       note_ids();
+      settle_heights(reader_->rows()->columns().z());
       if (reader_->rows()->columns().id_is_file) track_set_.add_file_id(reader_->rows()->file_id());
       return track_set_.add_columns(reader_->rows()->columns(), file());
     }
-    settle_heights();
+    settle_heights(Column{});
     track_set_.add_columns(columns_of_messages(format_, geographic_.value_or(false), has_heights_), file());
     if (malformed_ > 0)
       track_set_.counts_.warnings.push_back(fmt::format("{}:{} (so many damaged messages are left out: {})",
@@ -77,26 +82,33 @@ class RawTrackSet::FileReader final : public ReportSink {
 
  private:
   void take(const SourceReport& report) override {
-    if (report.may_have_height && !report.has_height) return take_incomplete(report);
+    const bool is_on_ground = report.on_ground && !report.has_height;
+    if (report.may_have_height && !report.has_height && !is_on_ground) return take_incomplete(report);
     count_row();
-    RawTrack& track = track_of(report);
+    RawTrack* const found = track_of(report);
+    if (found == nullptr) return track_set_.count(track_set_.counts_.ignored, place_);
+    RawTrack& track = *found;
     const TimeField time = report.written.time.value_or(TimeField{report.stamp, report.time_kind});
     agree_on(time.kind, report.row);
     Vec3 position = report.row != nullptr ? report.written.position : report.position;
     if (report.row == nullptr) {
       agree_on_places(report);
       if (is_repeated(track, report)) return track_set_.count(track_set_.counts_.repeated, place_);
-      if (!report.has_height) position.z = std::numeric_limits<double>::quiet_NaN();
+      if (!report.has_height) position.z = unknown_height;
       has_heights_ = has_heights_ || report.has_height;
     } else {
+      if (is_on_ground) position.z = unknown_height;
+      has_heights_ = has_heights_ || report.may_have_height;
       track.radius = std::max(track.radius, report.extent);
       add_scenes(*report.row, time.time);
     }
-    track.samples.push_back({time.time, position, place_});
+    track.samples.push_back({time.time, position, place_, is_on_ground});
   }
   void take_incomplete(const SourceReport& report) override {
     count_row();
-    RawTrack& track = track_of(report);
+    RawTrack* const found = track_of(report);
+    if (found == nullptr) return track_set_.count(track_set_.counts_.ignored, place_);
+    RawTrack& track = *found;
     const auto& time = report.written.time;
     if (time) agree_on(time->kind, report.row);
     const auto& missing = *report.row->missing();
@@ -105,7 +117,8 @@ class RawTrackSet::FileReader final : public ReportSink {
       throw WrongInput(report.row->wrong_text(missing.column, fmt::format("a number as {}", missing.what)) +
                        " (see --missing)");
     track_set_.count(track_set_.counts_.missing, place_);
-    if (time && policy == MissingPolicy::split) track.breaks.push_back({time->time, place_});
+    ++track.placeless;
+    if (time && policy == MissingPolicy::split) track.timed_placeless.push_back({time->time, place_});
   }
   void time_is(const FileTime&, TimeKind) override {}
   void pass_over(Passed reason) override {
@@ -150,11 +163,16 @@ class RawTrackSet::FileReader final : public ReportSink {
     if (!is_table(format_) || !std::exchange(is_counted_, true)) ++track_set_.counts_.rows;
   }
 
-  RawTrack& track_of(const SourceReport& report) const {
+  /// Returns null for an id that --ignore names.
+  RawTrack* track_of(const SourceReport& report) const {
+    const auto id = track_set_.identities_.name_of(report.id);
+    if (!id) return nullptr;
     auto& tracks = track_set_.tracks_;
-    const auto [place, is_new] = track_set_.track_of_.emplace(report.id, tracks.size());
+    const auto [place, is_new] = track_set_.track_of_.emplace(*id, tracks.size());
     if (is_new) tracks.push_back({.id = place->first});
-    return tracks[place->second];
+    RawTrack& track = tracks[place->second];
+    track.is_joined = track.is_joined || *id != report.id;
+    return &track;
   }
 
   /// Checks that all times are of one kind.
@@ -179,9 +197,9 @@ class RawTrackSet::FileReader final : public ReportSink {
   }
   static bool is_repeated(const RawTrack& track, const SourceReport& report) {
     if (track.samples.empty()) return false;
-    const auto& [time, position, place] = track.samples.back();
-    return position.x == report.position.x && position.y == report.position.y &&
-           std::abs(seconds_between(time, report.stamp)) <= report.same_within;
+    const RawSample& last = track.samples.back();
+    return last.position.x == report.position.x && last.position.y == report.position.y &&
+           std::abs(seconds_between(last.time, report.stamp)) <= report.same_within;
   }
   void add_scenes(const RowReader& row, const FileTime& time) {
     const auto& names = row.head().names;
@@ -209,6 +227,7 @@ class RawTrackSet::FileReader final : public ReportSink {
   /// Counts the rows of each track by their order in time.
   void note_orders() const {
     for (RawTrack& track : track_set_.tracks_) {
+      if (track.is_joined) continue;
       const RawSample* before = nullptr;
       for (const RawSample& sample : track.samples) {
         if (sample.place.file != this_file()) continue;
@@ -221,18 +240,34 @@ class RawTrackSet::FileReader final : public ReportSink {
     }
   }
 
-  /// Leaves out messages without a height where others have one.
-  void settle_heights() {
+  /// Gives a height to aircraft on the ground, and leaves out samples without a height where others have one.
+  void settle_heights(const std::optional<Column>& column) {
     for (RawTrack& track : track_set_.tracks_) {
       for (RawSample& sample : track.samples) {
         if (!std::isnan(sample.position.z)) continue;
-        if (has_heights_)
-          track_set_.count(track_set_.counts_.missing, sample.place);
-        else
+        if (sample.on_ground && has_heights_) track_set_.count(track_set_.counts_.on_ground, sample.place);
+        if (!has_heights_) {
           sample.position.z = 0.0;
+        } else if (sample.on_ground && track_set_.ground_) {
+          sample.position.z = height_of_ground(*column);
+        } else {
+          if (!sample.on_ground) track_set_.count(track_set_.counts_.missing, sample.place);
+          ++track.placeless;
+          track.timed_placeless.push_back({sample.time, sample.place});
+        }
       }
       std::erase_if(track.samples, [](const RawSample& sample) { return std::isnan(sample.position.z); });
     }
+  }
+  /// Returns --ground in the unit of a column of heights.
+  double height_of_ground(const Column& column) const {
+    const bool is_known = !is_table(format_) || reader_->rows()->columns().in_metres;
+    if (!is_known && has_unit_behind(track_set_.options_.ground))
+      throw ProgramError(
+          fmt::format("--ground: expected a number without a unit, because the unit of heights in {} is not "
+                      "known, but got '{}': say --unit",
+                      file(), track_set_.options_.ground));
+    return is_known ? *track_set_.ground_ / column.unit : *track_set_.ground_;
   }
 
   RawTrackSet& track_set_;
@@ -247,6 +282,14 @@ class RawTrackSet::FileReader final : public ReportSink {
   std::size_t malformed_ = 0;
   std::string first_malformed_;  ///< its line and what was expected
 };
+
+RawTrackSet::RawTrackSet(const TrackOptions& options, bool several_files)
+    : options_(options), several_files_(several_files), identities_(options.identities) {
+  if (options.ground.empty()) return;
+  const bool is_below = options.ground.starts_with('-');
+  const double size = parse_measure(options.ground.substr(is_below ? 1 : 0), Measure::length, "--ground");
+  ground_ = is_below ? -size : size;
+}
 
 /// Tables are those that look like no messages.
 StreamFormat RawTrackSet::format_of(std::string_view text) const {

@@ -28,6 +28,7 @@ struct RawSample {
   FileTime time;
   Vec3 position;  ///< in the units of the file; z is NaN where only others have a height
   Place place;
+  bool on_ground = false;  ///< without a height
 };
 
 /// The samples of one id.
@@ -37,19 +38,22 @@ struct RawTrack {
   double radius = 0.0;             ///< of a disc that covers the body (metres); 0 where no size is known
   std::size_t forward = 0, backward = 0;  ///< rows that are later, or earlier, than the row before
   Place first_backward;                   ///< row
-  /// Times at which the track does not go on (MissingPolicy::split).
-  struct Break {
+  bool is_joined = false;                 ///< --same names it, so that its rows may be in any order
+  std::size_t placeless = 0;              ///< rows and messages that have no time or no position
+  /// A row without a position whose time counts. Times of rows that MissingPolicy::skip leaves out do not: a
+  /// receiver without a fix may write any.
+  struct Placeless {
     FileTime time;
     Place place;
   };
-  std::vector<Break> breaks;
+  std::vector<Placeless> timed_placeless;
 };
 
 class RawTrackSet {
  public:
   /// `options` must outlive it.
-  RawTrackSet(const TrackOptions& options, bool several_files)
-      : options_(options), several_files_(several_files) {}
+  /// Throws ProgramError naming a wrong option.
+  RawTrackSet(const TrackOptions& options, bool several_files);
 
   /// Adds a file: a table, a file that is converted to one, or messages. Throws ProgramError naming file,
   /// line and column of an error. Damaged messages, and those without a position, are counted.
@@ -68,6 +72,10 @@ class RawTrackSet {
   std::string name(const Place& place) const;
   /// Throws ProgramError if two files have an id at the same times, which may be two bodies.
   void ask_about_ids() const;
+  /// Throws ProgramError if --same or --ignore names an id that has not come.
+  void ask_about_identities() const {
+    identities_.ask_about_unknown(tracks_.empty() ? std::string() : tracks_.front().id);
+  }
   /// Throws ProgramError if the files have scenes that may not belong together.
   void ask_about_scenes() const { scenes_.ask(head_.file); }
   /// Increments the tally.
@@ -88,6 +96,7 @@ class RawTrackSet {
 
   const TrackOptions& options_;
   bool several_files_;
+  Identities identities_;
   std::vector<std::string> files_;
   TableColumns columns_;
   TableHead head_;
@@ -96,8 +105,9 @@ class RawTrackSet {
   Place first_time_;
   std::vector<RawTrack> tracks_;
   std::unordered_map<std::string, std::size_t> track_of_;
-  std::optional<bool> passed_midnight_;                   ///< by clock times
-  std::optional<std::size_t> id_column_;                  ///< of ids that may be other bodies in other files
+  std::optional<bool> passed_midnight_;   ///< by clock times
+  std::optional<double> ground_;          ///< --ground, in metres or, without a unit, in the unit of heights
+  std::optional<std::size_t> id_column_;  ///< of ids that may be other bodies in other files
   std::unordered_map<std::string, std::string> file_of_;  ///< of the bodies that are called like their file
   ReadCounts counts_;
   SceneCheck scenes_;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "formats/streams/report_format.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
+#include "tracks/identities.hpp"
 #include "tracks/projection.hpp"
 
 namespace kinesphere::program {
@@ -24,7 +26,11 @@ enum class DuplicatePolicy {
   mean,   ///< the mean of their positions
 };
 
+/// Returns "vanish", "stay" or "go-on".
+std::string_view name_of(Outside outside);
+
 struct TrackOptions : FormatChoices {
+  IdentityChoice identities;
   ProjectionChoice projection = ProjectionChoice::automatic;
   MissingPolicy missing = MissingPolicy::fail;
   DuplicatePolicy duplicates = DuplicatePolicy::fail;
@@ -33,7 +39,17 @@ struct TrackOptions : FormatChoices {
   /// Seconds. A longer time between two samples of one id splits it into two tracks. Default: 2.5 times the
   /// median time between samples of that id, or of all ids if it has fewer than 4 samples.
   std::optional<double> max_gap;
-  Interpolation interpolation = Interpolation::spline;
+  /// The rows are waypoints of plans: however far apart, the way goes on from one to the next.
+  bool is_plan = false;
+  std::optional<Interpolation> interpolation;  ///< Default: straight on in a plan, else a spline
+  std::string ground;  ///< height of aircraft on the ground that have none: a length; empty to leave them out
+  bool counts_handovers = false;  ///< approaches of an id with the one as which it goes on are approaches
+  /// Before the first and after the last sample of an id, within the recording.
+  Outside outside = Outside::vanish;
+
+  Interpolation chosen_interpolation() const {
+    return interpolation.value_or(is_plan ? Interpolation::linear : Interpolation::spline);
+  }
 };
 
 }  // namespace kinesphere::program

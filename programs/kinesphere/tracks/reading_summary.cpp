@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracks/coverage_summary.hpp"
+
 namespace kinesphere::program {
 namespace {
 
@@ -32,9 +34,11 @@ std::string unused_text(const TrackSet& track_set) {
 }
 
 std::string gap_text(const TrackSet& track_set) {
+  if (std::isinf(track_set.smallest_max_gap)) return "not cut at gaps";
   const std::string smallest = number(track_set.smallest_max_gap);
   const std::string largest = number(track_set.largest_max_gap);
-  return smallest == largest ? smallest + " s" : fmt::format("{} s to {} s, by id", smallest, largest);
+  return smallest == largest ? fmt::format("cut at gaps over {} s", smallest)
+                             : fmt::format("cut at gaps over {} s to {} s, by id", smallest, largest);
 }
 
 std::string first_places(const Tally& tally) {
@@ -49,14 +53,14 @@ void add_tally(Summary& summary, const std::string& label, const Tally& tally) {
 }  // namespace
 
 void add_track_set(Summary& summary, const std::vector<std::string>& files, const TrackSet& track_set,
-                   const TrackScene& scene) {
+                   const TrackScene& scene, const Coverage& coverage) {
   summary.row(files.size() == 1 ? "file" : "files", fmt::format("{}", fmt::join(files, ", ")));
   summary.row("format", format_text(track_set));
   if (!track_set.unused.empty()) summary.row("not used", unused_text(track_set));
   if (const std::string projection = track_set.coordinates.description(); !projection.empty())
     summary.row("projection", projection);
   summary.row("tracks", grouped(track_set.tracks.size()),
-              fmt::format("of {} ids, cut at gaps over {}", grouped(track_set.ids), gap_text(track_set)));
+              fmt::format("of {} ids, {}", grouped(track_set.presences.size()), gap_text(track_set)));
   summary.row(
       "samples", grouped(track_set.samples),
       fmt::format("every {} s, of {} rows", number(track_set.sample_interval), grouped(track_set.rows)));
@@ -72,10 +76,17 @@ void add_track_set(Summary& summary, const std::vector<std::string>& files, cons
   if (!track_set.filter.empty())
     summary.row("left out", grouped(track_set.filtered.count),
                 fmt::format("rows for which not: {}", track_set.filter));
+  add_tally(summary, "ignored ids", track_set.ignored);
+  if (track_set.on_ground.count > 0)
+    summary.row("on the ground", grouped(track_set.on_ground.count),
+                track_set.ground.empty() ? fmt::format("without a height, left out: {} (see --ground)",
+                                                       first_places(track_set.on_ground))
+                                         : fmt::format("without a height, taken at {}", track_set.ground));
   add_tally(summary, "missing values", track_set.missing);
   add_tally(summary, "malformed", track_set.malformed);
   add_tally(summary, "repeated", track_set.repeated);
   add_tally(summary, "duplicates", track_set.duplicates);
+  add_tally(summary, "heard twice", track_set.echoes);
   add_tally(summary, "too fast", track_set.too_fast);
   if (track_set.left_out > 0) {
     summary.row(
@@ -83,6 +94,7 @@ void add_track_set(Summary& summary, const std::vector<std::string>& files, cons
         fmt::format("samples between two gaps, left out: {} of the rows",
                     percent(static_cast<double>(track_set.left_out), static_cast<double>(track_set.rows))));
   }
+  add_coverage(summary, coverage, track_set);
   const Scene& run = scene.scene;
   summary.row("span", fmt::format("{} s", number(run.end_time - run.world.start_time)),
               fmt::format("from {} to {}", track_set.times.text(run.world.start_time),
@@ -98,9 +110,14 @@ std::vector<std::string> warnings_of(const TrackSet& track_set) {
                                      percent(static_cast<double>(part), rows), what));
   };
   add(track_set.left_out, "were left out, alone between two gaps: a longer --max-gap keeps them");
+  if (track_set.ground.empty())
+    add(track_set.on_ground.count,
+        "are of aircraft on the ground and left out: --ground gives them a height");
   add(track_set.missing.count, "have no time or no position");
   add(track_set.malformed.count, "are malformed");
   add(track_set.duplicates.count, "repeat a time of their id");
+  add(track_set.echoes.count,
+      "repeat a place of their id a little later, as from a second receiver, and are left out");
   add(track_set.too_fast.count, "were left out by --max-speed");
   return warnings;
 }
@@ -108,6 +125,15 @@ std::vector<std::string> warnings_of(const TrackSet& track_set) {
 std::vector<std::string> warnings_of(const TrackSet& track_set, const TrackScene& scene) {
   std::vector<std::string> warnings = warnings_of(track_set);
   const Overshoots& overshoots = scene.overshoots;
+  if (overshoots.straightened > 0)
+    warnings.push_back(
+        fmt::format("the splines of {} tracks swing out farther than all of their samples are apart, by up "
+                    "to {} (id '{}' "
+                    "after {}), and are replaced by straight lines from sample to sample: see --max-speed "
+                    "and --interpolate "
+                    "linear",
+                    grouped(overshoots.straightened), number(overshoots.most_absurd.size),
+                    overshoots.most_absurd.id, track_set.times.text(overshoots.most_absurd.time)));
   if (overshoots.tracks > 0) {
     warnings.push_back(fmt::format(
         "the splines of {} tracks swing out far beyond their samples, by up to {} (id '{}' after {}): see "

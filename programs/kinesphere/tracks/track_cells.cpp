@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "base/json_text.hpp"
+
 namespace kinesphere::program {
 
 std::string name_with_unit(std::string_view name, Measure measure, const TrackSet& track_set) {
@@ -18,6 +20,11 @@ Cell time_cell(const TimeScale& times, double time) {
   std::string text = times.text(time);
   if (times.is_number()) return DecimalText{std::move(text)};
   return text;
+}
+
+std::string json_of_time(const TimeScale& times, double time) {
+  const std::string text = times.text(time);
+  return times.is_number() ? text : json_text(text);
 }
 
 void add_position(std::vector<Cell>& cells, const Vec3& local, const TrackSet& track_set) {

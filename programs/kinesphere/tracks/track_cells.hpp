@@ -16,6 +16,8 @@ namespace kinesphere::program {
 std::string name_with_unit(std::string_view name, Measure measure, const TrackSet& track_set);
 /// A number where the file has numbers, else a date.
 Cell time_cell(const TimeScale& times, double time);
+/// Returns that cell as JSON.
+std::string json_of_time(const TimeScale& times, double time);
 /// Adds x, y and z in the file's coordinates; z is empty if the file has none.
 void add_position(std::vector<Cell>& cells, const Vec3& local, const TrackSet& track_set);
 /// Adds three components; the third is empty in a plane.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "base/input_file.hpp"
@@ -14,6 +15,8 @@
 #include "formats/fields/degree_check.hpp"
 #include "formats/fields/time_check.hpp"
 #include "tracks/cleaning.hpp"
+#include "tracks/echoes.hpp"
+#include "tracks/handovers.hpp"
 #include "tracks/raw_samples.hpp"
 
 namespace kinesphere::program {
@@ -159,8 +162,8 @@ std::optional<std::string> warning_of_radians(const RawTrackSet& raw) {
 std::optional<std::string> warning_about_lone_tracks(const TrackSet& track_set) {
   std::vector<const RecordedTrack*> tracks;
   for (const RecordedTrack& track : track_set.tracks) tracks.push_back(&track);
-  const auto begin = [](const RecordedTrack* track) { return track->samples.front().time; };
-  const auto end = [](const RecordedTrack* track) { return track->samples.back().time; };
+  const auto begin = [](const RecordedTrack* track) { return track->from(); };
+  const auto end = [](const RecordedTrack* track) { return track->until(); };
   std::sort(tracks.begin(), tracks.end(), [&](const auto* a, const auto* b) { return begin(a) < begin(b); });
   const RecordedTrack* other = nullptr;
   double last = -std::numeric_limits<double>::infinity();
@@ -185,7 +188,8 @@ struct Body {
   std::string id;
   double radius;
   std::vector<Piece> pieces;
-  std::vector<double> breaks;
+  std::vector<double> placeless;  ///< times of rows without a position, in order
+  Presence presence;              ///< without what became tracks
 };
 
 class Reading {
@@ -203,8 +207,9 @@ class Reading {
     track_set_.has_heights = raw.columns().z().has_value();
     track_set_.is_plane = !raw.columns().z() && track_set_.coordinates.are_plane();
     if (track_set_.times.kind() == TimeKind::frames) track_set_.frame_rate = track_set_.times.rate();
-    track_set_.ids = raw.tracks().size();
     track_set_.filter = raw.columns().where;
+    track_set_.outside = options.outside;
+    track_set_.ground = options.ground;
     for (const std::size_t column : raw.columns().unused)
       track_set_.unused.push_back(raw.head().names.empty() ? fmt::format("{}", column + 1)
                                                            : raw.head().names[column]);
@@ -217,7 +222,13 @@ class Reading {
     for (const Body& body : bodies_)
       for (const Piece& piece : body.pieces) add_intervals(piece, intervals);
     track_set_.sample_interval = median_interval(std::move(intervals));
+    for (const Body& body : bodies_) {
+      if (body.presence.first > body.presence.last) continue;
+      span_.from = std::min(span_.from, body.presence.first);
+      span_.until = std::max(span_.until, body.presence.last);
+    }
     for (const Body& body : bodies_) add_tracks(body);
+    if (!options_.counts_handovers) hand_over();
     if (auto warning = warning_about_lone_tracks(track_set_))
       track_set_.warnings.push_back(std::move(*warning));
     return std::move(track_set_);
@@ -225,7 +236,7 @@ class Reading {
 
  private:
   Body cleaned(const RawTrack& track) {
-    Body body{track.id, track.radius, {}, {}};
+    Body body{.id = track.id, .radius = track.radius};
     Piece samples;
     samples.reserve(track.samples.size());
     for (const RawSample& sample : track.samples) {
@@ -234,18 +245,35 @@ class Reading {
            sample.place});
     }
     leave_one_at_each_time(samples, track.id, options_.duplicates, raw_, track_set_.duplicates);
+    leave_out_echoes(samples, raw_, track_set_.echoes);
+    body.presence = presence_of(track, samples);
     if (options_.max_speed) {
       body.pieces = split_by_speed(samples, *options_.max_speed, raw_, track_set_.too_fast);
     } else {
       body.pieces.push_back(std::move(samples));
     }
-    for (const RawTrack::Break& at : track.breaks) body.breaks.push_back(track_set_.times.seconds(at.time));
-    std::sort(body.breaks.begin(), body.breaks.end());
+    for (const RawTrack::Placeless& at : track.timed_placeless)
+      body.placeless.push_back(track_set_.times.seconds(at.time));
+    std::sort(body.placeless.begin(), body.placeless.end());
     return body;
+  }
+
+  Presence presence_of(const RawTrack& track, const Piece& samples) const {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    Presence presence{
+        .id = track.id, .first = never, .last = -never, .samples = track.placeless + samples.size()};
+    const auto add = [&](double time) {
+      presence.first = std::min(presence.first, time);
+      presence.last = std::max(presence.last, time);
+    };
+    for (const PlacedSample& sample : samples) add(sample.sample.time);
+    for (const RawTrack::Placeless& row : track.timed_placeless) add(track_set_.times.seconds(row.time));
+    return presence;
   }
 
   /// Fewer than 3 intervals give no reliable median.
   double max_gap_of(const Body& body) const {
+    if (options_.is_plan) return std::numeric_limits<double>::infinity();
     if (options_.max_gap) return *options_.max_gap;
     std::vector<double> intervals;
     for (const Piece& piece : body.pieces) add_intervals(piece, intervals);
@@ -256,18 +284,62 @@ class Reading {
     const double max_gap = max_gap_of(body);
     track_set_.smallest_max_gap = std::min(track_set_.smallest_max_gap, max_gap);
     track_set_.largest_max_gap = std::max(track_set_.largest_max_gap, max_gap);
-    for (const Piece& whole : body.pieces) {
-      for (const Piece& piece : split_at_gaps(whole, max_gap, body.breaks)) {
-        if (piece.size() == 1) {
-          ++track_set_.left_out;
-          continue;
-        }
-        track_set_.samples += piece.size();
-        RecordedTrack& track = track_set_.tracks.emplace_back();
-        track.id = body.id;
-        track.radius = body.radius;
-        for (const PlacedSample& sample : piece) track.samples.push_back(sample.sample);
+    Presence& presence = track_set_.presences.emplace_back(body.presence);
+    presence.first_track = track_set_.tracks.size();
+    const std::span<const double> breaks =
+        options_.missing == MissingPolicy::split ? body.placeless : std::span<const double>();
+    std::vector<Piece> pieces;
+    for (const Piece& whole : body.pieces)
+      for (Piece& piece : split_at_gaps(whole, max_gap, breaks)) pieces.push_back(std::move(piece));
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      RecordedTrack track{.id = body.id, .samples = {}, .radius = body.radius};
+      for (const PlacedSample& sample : pieces[k]) track.samples.push_back(sample.sample);
+      if (options_.outside != Outside::vanish) reach_outside(track, k == 0, k + 1 == pieces.size());
+      if (track.samples.size() == 1) {
+        ++track_set_.left_out;
+        continue;
       }
+      track_set_.samples += pieces[k].size();
+      presence.used += pieces[k].size();
+      presence.first = std::min(presence.first, track.from());
+      presence.last = std::max(presence.last, track.until());
+      ++presence.tracks;
+      track_set_.tracks.push_back(std::move(track));
+    }
+  }
+
+  /// A body that goes on under another id is not outside of its samples.
+  void hand_over() {
+    track_set_.handovers = handovers_in(track_set_);
+    for (const Handover& handover : track_set_.handovers) {
+      Presence &from = track_set_.presences[handover.from], &to = track_set_.presences[handover.to];
+      RecordedTrack &last = track_set_.tracks[from.first_track + from.tracks - 1],
+                    &first = track_set_.tracks[to.first_track];
+      last.reaches_on_to.reset();
+      last.rests.last = false;
+      from.last = bodies_[handover.from].presence.last;
+      first.reaches_back_to.reset();
+      first.rests.first = false;
+      to.first = bodies_[handover.to].presence.first;
+    }
+  }
+
+  /// Makes the first and the last track of an id reach to the ends of the recording. One sample is enough for
+  /// a body that stays.
+  void reach_outside(RecordedTrack& track, bool is_first, bool is_last) const {
+    const bool stays = options_.outside == Outside::stay, is_alone = track.samples.size() == 1;
+    if (is_alone && !stays) return;
+    const TrackSample first = track.samples.front(), last = track.samples.back();
+    if (is_last && last.time < span_.until) {
+      track.reaches_on_to = span_.until;
+      track.rests.last = stays;
+      if (is_alone) track.samples.push_back({span_.until, last.position});
+    }
+    if (is_first && span_.from < first.time) {
+      track.reaches_back_to = span_.from;
+      track.rests.first = stays;
+      if (track.samples.size() == 1)
+        track.samples.insert(track.samples.begin(), {span_.from, first.position});
     }
   }
 
@@ -275,11 +347,17 @@ class Reading {
   const TrackOptions& options_;
   TrackSet track_set_;
   std::vector<Body> bodies_;
+  /// From the first to the last row of all ids.
+  struct {
+    double from = std::numeric_limits<double>::infinity(), until = -std::numeric_limits<double>::infinity();
+  } span_;
 };
 
 void check(const TrackOptions& options) {
   if (options.max_gap && !(*options.max_gap >= 0))
     throw ProgramError(fmt::format("--max-gap: expected a number >= 0, but got {}", *options.max_gap));
+  if (options.max_gap && options.is_plan)
+    throw ProgramError("--max-gap: expected none with --plan, whose ways have no gaps");
   if (options.max_speed && !(*options.max_speed > 0))
     throw ProgramError(fmt::format("--max-speed: expected a number > 0, but got {}", *options.max_speed));
 }
@@ -294,6 +372,7 @@ TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options)
     files.push_back(text.file);
     raw.read(std::move(text.text), text.file);
   }
+  raw.ask_about_identities();
   ask_about_row_numbers(raw);
   raw.ask_about_ids();
   ask_about_times(raw);
@@ -303,6 +382,9 @@ TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options)
     if (track_set.rows > 0 && track_set.filtered.count == track_set.rows)
       throw ProgramError(fmt::format("{}: expected rows for which this holds: {}; but there are none",
                                      fmt::join(files, ", "), track_set.filter));
+    if (track_set.rows > 0 && track_set.ignored.count == track_set.rows)
+      throw ProgramError(fmt::format("{}: expected an id that --ignore does not name, but there is none",
+                                     fmt::join(files, ", ")));
     if (track_set.malformed.count > 0 && track_set.malformed.count == track_set.rows)
       throw ProgramError(track_set.warnings.front());
     if (track_set.too_fast.count > 0)
@@ -314,9 +396,13 @@ TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options)
       throw ProgramError(fmt::format("{}: expected samples at two times or more, but all are at {}",
                                      fmt::join(files, ", "),
                                      track_set.times.text(track_set.times.seconds(*time))));
-    throw ProgramError(
-        fmt::format("{}: expected an id with two samples at most {} s apart, but there is none",
-                    fmt::join(files, ", "), track_set.largest_max_gap));
+    const std::string all_files = fmt::format("{}", fmt::join(files, ", "));
+    if (options.is_plan)
+      throw ProgramError(fmt::format("{}: expected an id with two waypoints, but there is none", all_files));
+    throw ProgramError(fmt::format(
+        "{}: expected an id with two samples at most {} s apart, but there is none: see --max-gap, "
+        "and --plan where rows are waypoints",
+        all_files, track_set.largest_max_gap));
   }
   return track_set;
 }

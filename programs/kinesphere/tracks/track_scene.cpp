@@ -60,8 +60,8 @@ double tolerance_of(const TrackSet& track_set, const ApproachQuestion& question)
 Swing farthest_of(const TrackSet& track_set, const Motion& motion) {
   Swing farthest;
   for (std::uint32_t number = 0; number < track_set.tracks.size(); ++number) {
-    const auto& samples = track_set.tracks[number].samples;
-    for (const Segment& segment : motion.trajectory(number, samples.front().time, samples.back().time)) {
+    const RecordedTrack& track = track_set.tracks[number];
+    for (const Segment& segment : motion.trajectory(number, track.from(), track.until())) {
       const double s = segment.end - segment.begin;
       for (int axis = 0; axis < 3; ++axis) {
         const double coordinate =
@@ -69,7 +69,7 @@ Swing farthest_of(const TrackSet& track_set, const Motion& motion) {
             (std::abs(segment.velocity[axis]) +
              (std::abs(segment.acceleration[axis]) / 2.0 + std::abs(segment.jerk[axis]) * s / 6.0) * s) *
                 s;
-        if (coordinate > farthest.size) farthest = {track_set.tracks[number].id, coordinate, segment.begin};
+        if (coordinate > farthest.size) farthest = {track.id, coordinate, segment.begin};
       }
     }
   }
@@ -115,22 +115,45 @@ double swing(const Segment& segment, const Vec3& from, const Vec3& to) {
   return largest;
 }
 
+/// Returns the largest swing of a curve between two samples that is larger than `distance` and their
+/// distance.
+Swing largest_swing(const RecordedTrack& track, const Trajectory& curve, double distance) {
+  Swing largest;
+  for (std::size_t k = 0; k + 1 < track.samples.size(); ++k) {
+    const Vec3 &from = track.samples[k].position, &to = track.samples[k + 1].position;
+    const double size = swing(curve[k], from, to);
+    if (size > distance && size > norm(to - from) && size > largest.size)
+      largest = {track.id, size, track.samples[k].time};
+  }
+  return largest;
+}
+
+double diagonal_of(const RecordedTrack& track) {
+  Box box{track.samples.front().position, track.samples.front().position};
+  for (const TrackSample& sample : track.samples) {
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = std::min(box.lower[axis], sample.position[axis]);
+      box.upper[axis] = std::max(box.upper[axis], sample.position[axis]);
+    }
+  }
+  return norm(box.upper - box.lower);
+}
+
 Overshoots overshoots_of(const TrackSet& track_set, const Motion& motion, double distance) {
   Overshoots overshoots;
   for (std::uint32_t number = 0; number < track_set.tracks.size(); ++number) {
     const RecordedTrack& track = track_set.tracks[number];
     const auto& samples = track.samples;
-    const Trajectory curve = motion.trajectory(number, samples.front().time, samples.back().time);
-    bool swings_out = false;
-    for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
-      const Vec3& from = samples[k].position;
-      const Vec3& to = samples[k + 1].position;
-      const double size = swing(curve[k], from, to);
-      if (size <= distance || size <= norm(to - from)) continue;
-      swings_out = true;
-      if (size > overshoots.largest.size) overshoots.largest = {track.id, size, samples[k].time};
-    }
-    if (swings_out) ++overshoots.tracks;
+    const Swing found =
+        largest_swing(track, motion.trajectory(number, samples.front().time, samples.back().time), distance);
+    if (found.size == 0.0) continue;
+    const bool is_absurd = found.size > diagonal_of(track);
+    ++(is_absurd ? overshoots.straightened : overshoots.tracks);
+    Swing& largest = is_absurd ? overshoots.most_absurd : overshoots.largest;
+    if (found.size > largest.size) largest = found;
+    if (!is_absurd) continue;
+    overshoots.is_straight.resize(track_set.tracks.size(), false);
+    overshoots.is_straight[number] = true;
   }
   return overshoots;
 }
@@ -146,6 +169,13 @@ std::vector<Track> samples_of(const TrackSet& track_set, double stretch = 1.0) {
   return tracks;
 }
 
+std::vector<TrackStay> stays_of(const TrackSet& track_set) {
+  std::vector<TrackStay> stays;
+  for (const RecordedTrack& track : track_set.tracks)
+    stays.push_back({track.from(), track.until(), track.rests});
+  return stays;
+}
+
 /// Throws the error of a scene with curves through its samples.
 [[noreturn]] void refuse(const TrackSet& track_set, const Error& error) {
   const bool is_known = error.body.index < track_set.tracks.size();
@@ -153,10 +183,11 @@ std::vector<Track> samples_of(const TrackSet& track_set, double stretch = 1.0) {
       fmt::format("id '{}': {}", is_known ? track_set.tracks[error.body.index].id : "", message_of(error)));
 }
 
-/// Returns a scene of the track set stretched along z.
-Scene scene_with(const TrackSet& track_set, const ApproachQuestion& question, double stretch, double distance,
-                 double tolerance) {
-  auto scene = scene_of_tracks(samples_of(track_set, stretch), distance, question.interpolation);
+/// Returns a scene of the track set stretched along z. `is_straight` as for scene_of_tracks().
+Scene scene_with(const TrackSet& track_set, const ApproachQuestion& question,
+                 const std::vector<bool>& is_straight, double stretch, double distance, double tolerance) {
+  auto scene = scene_of_tracks(samples_of(track_set, stretch), distance, question.interpolation,
+                               stays_of(track_set), is_straight);
   if (!scene) refuse(track_set, scene.error());
   for (std::size_t k = 0; k < track_set.tracks.size(); ++k)
     scene->bodies[k].radius += track_set.tracks[k].radius;
@@ -178,28 +209,31 @@ std::vector<double> radii_of(const TrackSet& track_set) {
 }
 
 RecordedTracks splines_through(const TrackSet& track_set) {
-  auto curves = RecordedTracks::create(samples_of(track_set));
+  std::vector<RestingEnds> ends;
+  for (const RecordedTrack& track : track_set.tracks) ends.push_back(track.rests);
+  auto curves = RecordedTracks::create(samples_of(track_set), ends);
   if (!curves) refuse(track_set, curves.error());
   return std::move(*curves);
 }
 
 TrackScene scene_of(const TrackSet& track_set, const ApproachQuestion& question) {
   const double tolerance = tolerance_of(track_set, question);
-  TrackScene result{.scene = scene_with(track_set, question, 1.0, question.distance, tolerance)};
-  if (question.vertical) {
-    const CylinderEnclosure enclosure = enclosure_of(
-        {.horizontal = question.distance, .vertical = *question.vertical, .tolerance = tolerance});
-    const double finest = furthest_of(track_set, enclosure.stretch).coordinate / tolerances_in_extent;
-    const double coarse = std::max(1e-6 * enclosure.distance, finest);
-    if (coarse >= enclosure.distance)
-      throw ProgramError(fmt::format(
-          "--separation: expected lengths above {:.3g}, because of the recording's extent", finest));
-    // The margin is far above what the engine and the rounding of curves take.
-    result.enclosing =
-        scene_with(track_set, question, enclosure.stretch, enclosure.distance + 4.0 * coarse, coarse);
-  }
+  TrackScene result;
   if (question.interpolation == Interpolation::spline)
-    result.overshoots = overshoots_of(track_set, *result.scene.motion, question.distance);
+    result.overshoots = overshoots_of(track_set, splines_through(track_set), question.distance);
+  const auto& is_straight = result.overshoots.is_straight;
+  result.scene = scene_with(track_set, question, is_straight, 1.0, question.distance, tolerance);
+  if (!question.vertical) return result;
+  const CylinderEnclosure enclosure =
+      enclosure_of({.horizontal = question.distance, .vertical = *question.vertical, .tolerance = tolerance});
+  const double finest = furthest_of(track_set, enclosure.stretch).coordinate / tolerances_in_extent;
+  const double coarse = std::max(1e-6 * enclosure.distance, finest);
+  if (coarse >= enclosure.distance)
+    throw ProgramError(fmt::format(
+        "--separation: expected lengths above {:.3g}, because of the recording's extent", finest));
+  // The margin is far above what the engine and the rounding of curves take.
+  result.enclosing = scene_with(track_set, question, is_straight, enclosure.stretch,
+                                enclosure.distance + 4.0 * coarse, coarse);
   return result;
 }
 

@@ -36,6 +36,11 @@ struct Swing {
 struct Overshoots {
   std::size_t tracks = 0;  ///< number of tracks with an overshoot
   Swing largest;           ///< by its distance from the straight line between the two samples
+  /// Tracks that swing out absurdly, by more than the diagonal of the box around their samples: their bodies
+  /// go straight on from sample to sample instead. They do not count above.
+  std::size_t straightened = 0;
+  Swing most_absurd;
+  std::vector<bool> is_straight;  ///< by track; empty if there are no such tracks
 };
 
 struct TrackScene {
@@ -56,10 +61,9 @@ std::vector<double> radii_of(const TrackSet& track_set);
 /// curve overflows.
 RecordedTracks splines_through(const TrackSet& track_set);
 
-/// Returns a scene with a body for each track, with half the distance as radius, present from its first
-/// sample to its last, and a span that is the window. Throws ProgramError naming the option or the id: for a
-/// tolerance that does not fit the distance or is too fine for the track set's extent, and if a curve
-/// overflows.
+/// Returns a scene with a body for each track, with half the distance as radius, present as the track says,
+/// and a span that is the window. Throws ProgramError naming the option or the id: for a tolerance that does
+/// not fit the distance or is too fine for the track set's extent, and if a curve overflows.
 TrackScene scene_of(const TrackSet& track_set, const ApproachQuestion& question);
 
 }  // namespace kinesphere::program

@@ -27,10 +27,14 @@
 #include "tracks/approach_files.hpp"
 #include "tracks/approach_plot.hpp"
 #include "tracks/closeness.hpp"
+#include "tracks/coverage_summary.hpp"
+#include "tracks/handovers.hpp"
 #include "tracks/implied_speeds.hpp"
 #include "tracks/minima_table.hpp"
 #include "tracks/reading_options.hpp"
 #include "tracks/reading_summary.hpp"
+#include "tracks/sample_steps.hpp"
+#include "tracks/summary_file.hpp"
 #include "tracks/track_file.hpp"
 #include "tracks/track_scene.hpp"
 
@@ -65,9 +69,9 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Tr
   const auto distances = [&](const std::string& one, const std::string& two) {
     return by_cylinder ? fmt::format("{:>12}  {:>12}", one, two) : fmt::format("{:>12}", one);
   };
-  std::string text = fmt::format("\n{:>24}  {}  {:>14}  {:>12}    {}\n", "closest at",
+  std::string text = fmt::format("\n{:>24}  {}  {:>14}  {:>12}   {:>8}  {}\n", "closest at",
                                  distances(by_cylinder ? "horizontally" : "distance", "vertically"),
-                                 "relative speed", "duration", "ids");
+                                 "relative speed", "duration", "samples", "ids");
   const ImpliedSpeeds speeds(track_set);
   bool any_absurd = false;
   const auto marked = [&](std::uint32_t track, double time) {
@@ -78,15 +82,18 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Tr
   for (const std::size_t k : closest_of(approaches, shown)) {
     const Approach& approach = approaches[k];
     const ClosestApproach& closest = approach.closest;
+    const auto apart = steps_of(approach, track_set).longest();
     text += fmt::format(
-        "{:>24}  {}  {:>14}  {}{:>11}{}  {} {}\n", track_set.times.text(closest.time, 6),
+        "{:>24}  {}  {:>14}  {}{:>11}{} {:>8}  {} {}\n", track_set.times.text(closest.time, 6),
         by_cylinder ? distances(number(horizontal_distance(closest)), number(vertical_distance(closest)))
                     : distances(number(closest.distance), ""),
         number(closest.relative_speed), approach.begins_with_track ? "<" : " ",
         number(approach.end - approach.begin), approach.ends_with_track ? "> " : "  ",
-        marked(approach.first, closest.time), marked(approach.second, closest.time));
+        apart ? number(*apart) : "-", marked(approach.first, closest.time),
+        marked(approach.second, closest.time));
   }
   text += "< close from a track's first sample (or --from) on, > until a track's last sample (or --until)\n";
+  text += "samples: seconds from the sample before to the one after, 0 at a sample, - where there is none\n";
   if (any_absurd)
     text += "(?) samples around that time imply a speed more than 10 times the usual one: see --max-speed\n";
   if (approaches.size() > shown) {
@@ -166,6 +173,7 @@ class TracksFiles {
     const OutputPath outputs[] = {{"--contacts", options.contacts},
                                   {"--minima", options.minima},
                                   {"--pairs", options.pairs},
+                                  {"--summary", options.summary},
                                   {"--plot", options.plot}};
     check_outputs(outputs, options.files);
     if (!options.plot.empty() && std::filesystem::path(options.plot).extension() != ".svg")
@@ -175,6 +183,7 @@ class TracksFiles {
     if (!options.minima.empty()) minima_.emplace(options.minima);
     if (!options.pairs.empty()) pairs_.emplace(options.pairs);
     if (!options.plot.empty()) plot_.emplace(options.plot);
+    if (!options.summary.empty()) summary_.emplace(options.summary);
   }
 
   void check(const TrackSet& track_set) const {
@@ -189,17 +198,22 @@ class TracksFiles {
     if (pairs_) write_pairs(*pairs_, pairs_in(approaches, track_set, *scene.motion), track_set);
     if (plot_) plot_->write(plot_of(track_set, scene, approaches, distance));
   }
+  void write_summary(const std::vector<std::string>& files, const TrackSet& track_set,
+                     const TrackScene& scene, const TracksResult& result) {
+    if (summary_) summary_->write(summary_json(files, track_set, scene, result));
+  }
   void commit() {
     if (contacts_) contacts_->commit();
     if (minima_) minima_->commit();
     if (pairs_) pairs_->commit();
     if (plot_) plot_->commit();
+    if (summary_) summary_->commit();
   }
 
  private:
   std::optional<ApproachFile> contacts_;
   std::optional<TableFile> minima_, pairs_;
-  std::optional<OutputFile> plot_;
+  std::optional<OutputFile> plot_, summary_;
 };
 
 }  // namespace
@@ -233,8 +247,10 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
       ->type_name("FILE");
   command->add_option("--plot", options.plot, "Draw a map and the closest approaches into this .svg file")
       ->type_name("FILE");
+  command->add_option("--summary", options.summary, "Write the summary to this file, as JSON")
+      ->type_name("FILE");
   add_reading_options(*command, options.files, options.reading);
-  add_interpolation_option(*command, options.reading);
+  add_motion_options(*command, options.reading);
   command->add_flag(
       "--sizes", options.reading.hints.sizes,
       "Distances are between discs (in 3D spheres) around bodies of the columns length and width, and "
@@ -245,6 +261,73 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
   return command;
 }
 
+namespace {
+
+struct EngineRun {
+  std::vector<Event> events;
+  SceneResult result;
+  double seconds = 0.0;  ///< of the machine
+};
+
+/// Runs the scene, with a progress bar.
+EngineRun run_engine(const Scene& scene, bool quiet) {
+  EngineRun run;
+  SceneObserver observer;
+  observer.on_event = [&](const Event& event) { run.events.push_back(event); };
+  std::optional<Progress> progress;
+  if (!quiet) progress.emplace(scene.world.start_time, scene.end_time);
+  if (progress && progress->visible())
+    observer.between_events = [&](const Detector& detector) { progress->show(detector.time()); };
+  const auto started = std::chrono::steady_clock::now();
+  run.result = require(run_scene(scene, make_world_detector, observer));
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return run;
+}
+
+TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const TrackScene& scene,
+                       const Closeness& closeness, const ApproachFilter& filter) {
+  TracksResult result{.approaches = approaches_in(scene.searched(), run.events),
+                      .left_out = {},
+                      .of_one_body = 0,
+                      .coverage = coverage_of(track_set, filter),
+                      .vanishings = vanishings_in(track_set, filter, closeness),
+                      .probes = run.result.counters.probes,
+                      .hash = run.result.contact_hash};
+  if (closeness.vertical)
+    result.approaches = approaches_within({.horizontal = closeness.distance,
+                                           .vertical = *closeness.vertical,
+                                           .tolerance = scene.scene.world.contact_tolerance},
+                                          *scene.scene.motion, result.approaches);
+  result.of_one_body = leave_out_handovers(result.approaches, track_set);
+  const bool found_none = result.approaches.empty();
+  result.left_out = filter.apply(result.approaches);
+  find_closest(*scene.scene.motion, result.approaches, radii_of(track_set));
+  if (result.of_one_body > 0)
+    print_message("kinesphere: warning: {}\n", warning_of_handovers(track_set, result.of_one_body));
+  for (const std::string& warning : warnings_of(result.coverage, track_set, found_none))
+    print_message("kinesphere: warning: {}\n", warning);
+  if (found_none)
+    for (const std::string& warning : warnings_of(result.vanishings, track_set))
+      print_message("kinesphere: warning: {}\n", warning);
+  warn_of_one_place(result.approaches, track_set, scene.scene.world.contact_tolerance);
+  return result;
+}
+
+void add_result(Summary& summary, const TracksOptions& options, const Closeness& closeness,
+                const TracksResult& result, const TrackSet& track_set) {
+  summary.space();
+  add_approaches(summary, closeness, result.approaches);
+  add_left_out(summary, options.choice, result.left_out);
+  add_handovers(summary, track_set, result.of_one_body);
+  add_vanishings(summary, result.vanishings, track_set);
+  summary.row(
+      "probes", grouped(result.probes),
+      fmt::format("for {} samples: {}", grouped(track_set.samples),
+                  percent(static_cast<double>(result.probes), static_cast<double>(track_set.samples))));
+}
+
+}  // namespace
+
 int tracks(const TracksOptions& options) {
   const Closeness closeness = closeness_of(options.distance, options.separation);
   TracksFiles files(options);
@@ -252,65 +335,38 @@ int tracks(const TracksOptions& options) {
   check_closeness(closeness, track_set);
   files.check(track_set);
   const ApproachFilter filter(options.choice, track_set);
-  const TrackScene scene_and_notes = scene_of(track_set, {.distance = closeness.distance,
-                                                          .vertical = closeness.vertical,
-                                                          .tolerance = options.tolerance,
-                                                          .interpolation = options.reading.interpolation,
-                                                          .from = filter.window().from,
-                                                          .until = filter.window().until});
-  const Scene& scene = scene_and_notes.scene;
-  const Scene& searched = scene_and_notes.searched();
-  for (const std::string& warning : warnings_of(track_set, scene_and_notes))
+  const TrackScene scene = scene_of(track_set, {.distance = closeness.distance,
+                                                .vertical = closeness.vertical,
+                                                .tolerance = options.tolerance,
+                                                .interpolation = options.reading.chosen_interpolation(),
+                                                .from = filter.window().from,
+                                                .until = filter.window().until});
+  for (const std::string& warning : warnings_of(track_set, scene))
     print_message("kinesphere: warning: {}\n", warning);
   warn_of_distance(closeness, track_set);
 
-  std::vector<Event> events;
-  SceneObserver observer;
-  observer.on_event = [&](const Event& event) { events.push_back(event); };
-  std::optional<Progress> progress;
-  if (!options.quiet) progress.emplace(scene.world.start_time, scene.end_time);
-  if (progress && progress->visible()) {
-    observer.between_events = [&](const Detector& detector) { progress->show(detector.time()); };
-  }
-  const auto started = std::chrono::steady_clock::now();
-  const SceneResult result = require(run_scene(searched, make_world_detector, observer));
-  const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
-  progress.reset();
-
-  std::vector<Approach> approaches = approaches_in(searched, events);
-  if (closeness.vertical)
-    approaches = approaches_within({.horizontal = closeness.distance,
-                                    .vertical = *closeness.vertical,
-                                    .tolerance = scene.world.contact_tolerance},
-                                   *scene.motion, approaches);
-  const LeftOut left_out = filter.apply(approaches);
-  find_closest(*scene.motion, approaches, radii_of(track_set));
-  warn_of_one_place(approaches, track_set, scene.world.contact_tolerance);
-  files.write(track_set, scene, approaches, closeness.distance);
+  const EngineRun run = run_engine(scene.searched(), options.quiet);
+  const TracksResult result = result_of(run, track_set, scene, closeness, filter);
+  files.write(track_set, scene.scene, result.approaches, closeness.distance);
+  files.write_summary(options.files, track_set, scene, result);
   Summary summary;
-  add_track_set(summary, options.files, track_set, scene_and_notes);
-  summary.space();
-  add_approaches(summary, closeness, approaches);
-  add_left_out(summary, options.choice, left_out);
-  summary.row("probes", grouped(result.counters.probes),
-              fmt::format("for {} samples: {}", grouped(track_set.samples),
-                          percent(static_cast<double>(result.counters.probes),
-                                  static_cast<double>(track_set.samples))));
+  add_track_set(summary, options.files, track_set, scene, result.coverage);
+  add_result(summary, options, closeness, result, track_set);
   int exit_code = exit_fine;
   if (options.verify) {
     const ContactComparison comparison =
-        require(compare_with_oracle(searched, events, shown(options, searched)));
+        require(compare_with_oracle(scene.searched(), run.events, shown(options, scene.searched())));
     summary.space();
     add_comparison(summary, comparison);
     if (!comparison.agrees()) exit_code = exit_disagreement;
   }
   summary.space();
-  summary.row("hash", fmt::format("{:016x}", result.contact_hash));
-  add_speed(summary, result.simulated_time, real_time.count());
+  summary.row("hash", fmt::format("{:016x}", result.hash));
+  add_speed(summary, run.result.simulated_time, run.seconds);
   if (!options.quiet) {
     print("{}", summary.text());
-    if (!approaches.empty())
-      print("{}", closest_approaches(approaches, track_set, closeness.vertical.has_value()));
+    if (!result.approaches.empty())
+      print("{}", closest_approaches(result.approaches, track_set, closeness.vertical.has_value()));
   }
   // The commit comes last: a full disk must not suppress the summary.
   files.commit();

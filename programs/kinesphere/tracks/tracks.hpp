@@ -18,7 +18,7 @@ struct TracksOptions {
   std::optional<double> tolerance;
   TrackOptions reading;
   ApproachChoice choice;
-  std::string contacts, minima, pairs, plot;  ///< files to write; empty for none
+  std::string contacts, minima, pairs, plot, summary;  ///< files to write; empty for none
   bool verify = false;
   bool quiet = false;
 };

@@ -50,7 +50,7 @@ TEST(ConvertedTables, ReadsGpx) {
   EXPECT_NEAR(norm(two.tracks[0].samples[1].position - two.tracks[0].samples[0].position), 7.6, 0.1);
   EXPECT_EQ(error_in(gpx("<trk><trkseg>\n\n<trkpt lat=\"north\" "
                          "lon=\"8\"><time>2024-01-01T00:00:00Z</time></trkpt></trkseg></trk>")),
-            "f:3: expected a number as latitude (column 4), but got 'north'");
+            "f:3: expected a number as latitude ('lat'), but got 'north'");
   EXPECT_EQ(error_in("<gpx>\n<trk></gpx>"), "f:2: expected GPX: mismatched tag");
   const std::string expected =
       "f: expected tracks (trk) whose points have times, as receivers log them, but ";
@@ -188,7 +188,7 @@ TEST(ConvertedTables, ReadsFcdOutputOfSumo) {
   EXPECT_EQ(
       error_in("<fcd-export>\n<timestep time=\"0\">\n<vehicle id=\"a\" x=\"one\" y=\"2\"/>\n</timestep>\n"
                "</fcd-export>"),
-      "f:3: expected a number as x (column 3), but got 'one'");
+      "f:3: expected a number as x ('x'), but got 'one'");
 }
 
 TEST(ConvertedTables, ReadsTracksOfTrackMate) {
@@ -212,7 +212,7 @@ TEST(ConvertedTables, ReadsTracksOfTrackMate) {
   EXPECT_TRUE(two.in_metres);
   EXPECT_DOUBLE_EQ(two.tracks[0].samples[1].time, 0.75);
   EXPECT_EQ(two.coordinates.as_in_file(two.tracks[0].samples[1].position), (Vec3{4.5, 2, 0}));
-  EXPECT_EQ(error_in(tracks(said, "four")), "f:5: expected a number as x (column 3), but got 'four'");
+  EXPECT_EQ(error_in(tracks(said, "four")), "f:5: expected a number as x ('x_micron'), but got 'four'");
   EXPECT_EQ(error_in(tracks("spaceUnits=\"pixel\" frameInterval=\"1.0\" timeUnits=\"frame\"", "4.5")),
             "f: expected --frame-rate, because column 'frame' counts frames");
 }
@@ -232,13 +232,14 @@ TEST(ConvertedTables, ReadsJsonRecords) {
   EXPECT_EQ(records.tracks[0].id, "a, \"b\"");
   EXPECT_EQ(records.times.text(records.tracks[0].samples[1].time), "1700000002.123456");
   EXPECT_EQ(records.missing.count, 1u);
-  EXPECT_EQ(error_in(list), "f:2: expected a number as y (column 4), but got nothing (see --missing)");
+  EXPECT_EQ(error_in(list),
+            "f:2: expected a number as y ('pose.position.y'), but got nothing (see --missing)");
   const std::string lines = "{\"id\":1,\"t\":0,\"at\":[1,2]}\n{\"id\":1,\"t\":1,\"at\":[1,3]}\n";
   TrackOptions columns;
   columns.hints.columns = "id=id,time=t,x=at.0,y=at.1";
   EXPECT_EQ(parse(lines, columns).tracks[0].samples.size(), 2u);
   EXPECT_EQ(error_in(lines + "{\"id\":1,\"t\":\"two\",\"at\":[1,3]}\n", columns),
-            "f:3: expected a number as time (column 2), but got 'two'");
+            "f:3: expected a number as time ('t'), but got 'two'");
   std::string keys;
   for (int k = 0; k < 1200; ++k) keys += fmt::format("{{\"{}\":1}}\n", k);
   EXPECT_EQ(error_in(keys), "f:1001: expected records of at most 1000 names, but got more");
@@ -282,6 +283,40 @@ TEST(ConvertedTables, RefusesDeepJson) {
                   .starts_with("f:1: expected JSON"));
 }
 
+TEST(ConvertedTables, ReadsRecordsOverSeveralLines) {
+  TrackOptions options;
+  options.hints.columns = "id=id,time=time,x=pose.x,y=pose.y";
+  std::string nested = "[\n";
+  for (int k = 0; k < 4; ++k)
+    nested += std::string(k == 0 ? "" : ",\n") +
+              "  {\n    \"id\": \"a\",\n    \"time\": " + std::to_string(k) +
+              ",\n    \"pose\": {\n      \"x\": 1.5,\n      \"y\": " + std::to_string(k) +
+              "\n    },\n    \"twist\": {\r\n\t\"x\": 1,\n\t\"y\": 0.0\n    },\n    \"ok\": true\n  }";
+  const TrackSet found = parse(nested + "\n]\n", options);
+  ASSERT_EQ(found.tracks.size(), 1u);
+  EXPECT_EQ(found.tracks[0].samples.size(), 4u);
+  EXPECT_EQ(found.tracks[0].samples[3].position - found.tracks[0].samples[0].position, (Vec3{0, 3, 0}));
+  const std::string flat =
+      "[\n {\n  \"id\":\"a\",\"time\":0,\n  \"x\":0,\"y\":0\n },\n {\n  \"id\":\"a\",\"time\":1,\n  "
+      "\"x\":\"oops\",\"y\":0\n }\n]\n";
+  EXPECT_EQ(error_in(flat), "f:6: expected a number as x ('x'), but got 'oops'") << "the line of the record";
+}
+
+TEST(ConvertedTables, NamesWhatAFileLacks) {
+  EXPECT_EQ(error_in("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n"
+                     "ITEM: ATOMS id x y z\n"),
+            "f: expected positions, but this file (LAMMPS dump) has none");
+}
+
+TEST(ConvertedTables, TablesMayHaveAColumnOfScorers) {
+  const TrackSet found = parse("scorer,id,time,x,y\ns,a,0,0,0\ns,a,1,1,0\ns,b,0,5,5\ns,b,1,4,5\n");
+  EXPECT_EQ(found.format, "table");
+  EXPECT_EQ(found.tracks.size(), 2u);
+  EXPECT_NE(
+      error_in("scorer,s,s\nbodyparts,nose,nose\ncoordinates,x,y\n0,1,2\n").find("as DeepLabCut writes them"),
+      std::string::npos);
+}
+
 TEST(ConvertedTables, ReadsTracesOfTar1090) {
   const std::string trace =
       R"({"icao":"4ca1fa","timestamp":1600000000.5,"trace":[[0,47,8,"ground",10,90,0,null,null,"adsb_icao",null],)"
@@ -297,7 +332,8 @@ TEST(ConvertedTables, ReadsTracesOfTar1090) {
   EXPECT_EQ(flight.tracks[0].id, "4ca1fa");
   EXPECT_EQ(flight.times.text(flight.tracks[0].samples[0].time), "1600000010.75");
   EXPECT_NEAR(flight.coordinates.geographic(flight.tracks[0].samples[1].position)->z, 2000 * 0.3048, 1e-6);
-  EXPECT_EQ(flight.warnings.size(), 1u);
+  EXPECT_TRUE(flight.warnings.empty());
+  EXPECT_EQ(flight.on_ground.count, 1u);
   EXPECT_NE(error_of([&] { read(FormatChoices::Altitude::geometric); }), "") << "one sample alone";
   EXPECT_TRUE(
       error_in(R"({"icao":"4ca1fa","trace":[[0,47,8,1,)").starts_with("f:1: expected JSON records: "));
@@ -318,9 +354,9 @@ TEST(ConvertedTables, ReadsXyz) {
   EXPECT_EQ(error_in(plain), "f: expected --frame-rate, because column 'frame' counts frames");
   EXPECT_EQ(parse(plain, frames(2)).tracks[0].samples[1].time, 0.5);
   EXPECT_EQ(error_in("1\nwater\nO 1 2 3\n1\nwater\nO 2 two 3\n", frames(2)),
-            "f:6: expected a number as y (column 4), but got 'two'");
+            "f:6: expected a number as y ('y'), but got 'two'");
   EXPECT_EQ(error_in("1\nLattice=\"9 0 0 0 9 0 0 0 9\" Properties=species:S:1:pos:R:3 Time=0\nO 1 two 3\n"),
-            "f:3: expected a number as y (column 4), but got 'two'");
+            "f:3: expected a number as y ('y'), but got 'two'");
   EXPECT_EQ(error_in("1\nwater\nO 1 2 3\nwater\n", frames(2)),
             "f:4: expected a number of atoms, but got 'water'");
   EXPECT_EQ(error_in("1\nwater\nO 1 2 3\n1\nwater\nO 2 2 3", frames(2)),

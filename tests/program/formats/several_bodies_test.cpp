@@ -64,7 +64,7 @@ TEST(SeveralBodies, OfDeepLabCutNameLineAndColumn) {
             "f.csv:6: expected a number as x of tail (column 5), but got 'left'");
   EXPECT_EQ(error_in(head + "2,1,2,0.9\n", with("", 25)), "f.csv:6: expected 7 columns, but got 4");
   EXPECT_EQ(error_in(head + "2,1,2,0.9,,4,0.9\n", with("", 25)),
-            "f.csv:6: expected a number as x (column 3), but got nothing (see --missing)");
+            "f.csv:6: expected a number as x ('x'), but got nothing (see --missing)");
   EXPECT_EQ(
       error_in(head + "2,1,2,0.9,3,4,0.02\n", with("", 25)),
       "f.csv:6: the likelihood 0.02 says that the position may be anywhere: leave such rows out with --where "
@@ -72,7 +72,7 @@ TEST(SeveralBodies, OfDeepLabCutNameLineAndColumn) {
   EXPECT_EQ(parse(head + "2,1,2,0.9,3,4,0.02\n", with("likelihood >= 0.6", 25)).samples, 5u);
   EXPECT_EQ(parse(head + "2,1,2,0.9,3,4,0.02\n", with("likelihood != none", 25)).samples, 6u);
   EXPECT_EQ(
-      error_in("scorer,net\nparts,a\n0,1\n"),
+      error_in("scorer,net\nbodyparts,a\n0,1\n"),
       "f.csv:3: expected rows scorer, bodyparts and coords above the numbers, as DeepLabCut writes them");
 }
 
@@ -138,7 +138,7 @@ TEST(SeveralBodies, OfMotionCaptureAreReadAsTheyWereWritten) {
   // Qualisys writes zeros for a marker that it has lost; others leave it out.
   places[7][1] = {};
   EXPECT_EQ(error_in(captured(places, qualisys, '\t', 0)),
-            "f.csv:13: expected a number as x (column 3), but got nothing (see --missing)");
+            "f.csv:13: expected a number as x ('x_mm'), but got nothing (see --missing)");
   EXPECT_EQ(error_in(captured(places, qualisys, '\t', 0) + "1\t2\t3\t4\tfive\t6\n"),
             "f.csv:46: expected a number as y of b (column 5), but got 'five'");
 }
@@ -184,9 +184,10 @@ TEST(SeveralBodies, OfOneIdInTwoFilesAreAskedAbout) {
   TrackOptions apart;
   apart.hints.columns = "id=@file,time=time,x=x,y=y";
   EXPECT_EQ(both(apart).tracks.size(), 2u);
-  EXPECT_EQ(both(with("id != none")).ids, 1u);
-  EXPECT_EQ(parse_tracks({file("a.csv", 0), file("b.csv", 10)}, {}).ids, 1u) << "the second goes on";
-  EXPECT_EQ(parse_tracks({file("a.csv", 0, "mmsi"), file("b.csv", 0.5, "mmsi")}, {}).ids, 1u)
+  EXPECT_EQ(both(with("id != none")).presences.size(), 1u);
+  EXPECT_EQ(parse_tracks({file("a.csv", 0), file("b.csv", 10)}, {}).presences.size(), 1u)
+      << "the second goes on";
+  EXPECT_EQ(parse_tracks({file("a.csv", 0, "mmsi"), file("b.csv", 0.5, "mmsi")}, {}).presences.size(), 1u)
       << "two stations hear one ship";
 }
 

@@ -67,7 +67,7 @@ TEST(WideRecordings, OfVissim) {
                        "$VEHICLE:SIMSEC;NO;LANE\\LINK\\NO;LANE\\INDEX;POS;POSLAT\n0.2;1;1;1;2.57;0.5\n")
                   .starts_with("f:8: expected the attributes NO, SIMSEC and COORDFRONTX, COORDFRONTY"));
   EXPECT_EQ(error_in("$VEHICLE:SIMSEC;NO;COORDFRONTX;COORDFRONTY\n0;1;1;2\n1;1;x;2\n"),
-            "f:3: expected a number as x (column 3), but got 'x'");
+            "f:3: expected a number as x ('x'), but got 'x'");
   EXPECT_EQ(error_in("$VEHICLE:SIMSEC;NO;COORDFRONTX;COORDFRONTY\n0;1;1;2\n1;1;1\n"),
             "f:3: expected 4 fields, but got 3");
 }
@@ -88,7 +88,7 @@ TEST(WideRecordings, OfPneuma) {
                                "in the last line, which may be cut"));
   EXPECT_EQ(error_in(header + "1; Car; 1; 5; " + groups + "\n2; Car; 1; 5; " + groups +
                      "37.9; east; 5; 0; 0; 0.08\n"),
-            "f:3: expected a number as longitude (column 3), but got 'east'");
+            "f:3: expected a number as longitude ('lon'), but got 'east'");
 }
 
 TEST(WideRecordings, OfGromacs) {

@@ -583,7 +583,7 @@ TEST_F(TablesOfTheField, BodiesThatAreNeverThereAtOneTimeAreTold) {
                 "from 1700000000 to 1700000001"),
       std::string::npos)
       << told;
-  EXPECT_EQ(warning(u, "id,time,x,y\nv,2,0,0\nv,3,0,0\n"), "");
+  EXPECT_EQ(warning(u, "id,time,x,y\nv,2,0,9\nv,3,0,9\n"), "");
   EXPECT_EQ(warning(u, "id,time,x,y\nv,1.2,0,9\nv,1.3,0,9\n"), "");
   EXPECT_EQ(warning(u, "id,time,x,y\nu,10,0,0\nu,11,0,0\n"), "") << "one body";
 }

@@ -92,7 +92,7 @@ TEST(TrackFile, CutsTracksAtGaps) {
   EXPECT_EQ(track_set.smallest_max_gap, 2.5);
   EXPECT_EQ(track_set.largest_max_gap, 5.0);
   ASSERT_EQ(track_set.tracks.size(), 4u);
-  EXPECT_EQ(track_set.ids, 3u);
+  EXPECT_EQ(track_set.presences.size(), 3u);
   EXPECT_EQ(track_set.tracks[1].id, "b");
   EXPECT_EQ(track_set.tracks[2].id, "b");
   EXPECT_EQ(track_set.tracks[2].samples.front().time, 3.6);
@@ -123,7 +123,8 @@ TEST(TrackFile, NamesTheLineOfAWrongRow) {
             "--duplicates)");
   EXPECT_EQ(error_in("id,time,x,y\na,0,1,2\na,1,1\n"), "t.txt:3: expected 4 columns, but got 3");
   EXPECT_EQ(error_in("id,time,x,y\na,0,1,2\nb,1,1,2\n"),
-            "t.txt: expected an id with two samples at most 0 s apart, but there is none");
+            "t.txt: expected an id with two samples at most 0 s apart, but there is none: see --max-gap, "
+            "and --plan where rows are waypoints");
   EXPECT_EQ(error_in("id,time,x,y\na,7,1,2\nb,7,1,2\n"),
             "t.txt: expected samples at two times or more, but all are at 7");
 }
@@ -399,7 +400,7 @@ TEST_P(RealRecording, IsReadWhole) {
   options.hints.format = expected.hint;
   const TrackSet found = read_tracks({file}, options);
   EXPECT_EQ(found.format, expected.format);
-  EXPECT_EQ(found.ids, expected.ids);
+  EXPECT_EQ(found.presences.size(), expected.ids);
   EXPECT_EQ(found.tracks.size(), expected.tracks);
   EXPECT_EQ(found.samples, expected.samples);
   EXPECT_EQ(found.left_out, 0u);

@@ -56,7 +56,7 @@ std::string_view kind_of_recording(std::string_view beginning) {
       {"a .gro file of GROMACS", is_gro},
       {"a PDB file", is_pdb},
       {"a log of a GPS receiver", is_gps_log},
-      {"a table of DeepLabCut", [](std::string_view each) { return each.starts_with("scorer,"); }},
+      {"a table of DeepLabCut", is_deeplabcut},
       {"an export of motion capture", is_motion_capture},
       {"a record of Vissim", is_vissim},
       {"a table of pNEUMA", is_pneuma},

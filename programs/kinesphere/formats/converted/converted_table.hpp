@@ -78,6 +78,7 @@ std::optional<ConvertedTable> table_of(const JsonRows& rows);
 // What a text is by its beginning.
 bool is_igc(std::string_view text);
 bool is_gps_log(std::string_view text);
+bool is_deeplabcut(std::string_view text);
 bool is_gro(std::string_view text);
 bool is_pdb(std::string_view text);
 bool is_xyz(std::string_view text);

@@ -14,8 +14,15 @@
 
 namespace kinesphere::program {
 
+bool is_deeplabcut(std::string_view text) {
+  if (!text.starts_with("scorer,")) return false;
+  // Other tables may have a column of scorers.
+  text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return text.starts_with("bodyparts,") || text.starts_with("individuals,");
+}
+
 std::optional<ConvertedTable> convert_deeplabcut(std::string_view text, const std::string& file) {
-  if (!text.starts_with("scorer,")) return std::nullopt;
+  if (!is_deeplabcut(text)) return std::nullopt;
   LineCutter lines(text);
   const auto next_fields = [&] { return fields_of(lines.next().value_or(""), ','); };
   next_fields();

@@ -129,7 +129,7 @@ class GeoJsonReader {
       } else if (is_id || (!has_id && plain_name(name) == "name")) {
         has_id = is_id;
         id = value.type() == ondemand::json_type::string ? std::string(std::string_view(value.get_string()))
-                                                         : std::string(trimmed(value.raw_json_token()));
+                                                         : std::string(token_of(value));
       }
     }
     return has_id;
@@ -139,9 +139,8 @@ class GeoJsonReader {
   static std::vector<std::string> fields_of(ondemand::array list) {
     std::vector<std::string> fields;
     for (ondemand::value value : list)
-      fields.push_back(value.type() == ondemand::json_type::string
-                           ? quoted_field(value.get_string())
-                           : std::string(trimmed(value.raw_json_token())));
+      fields.push_back(value.type() == ondemand::json_type::string ? quoted_field(value.get_string())
+                                                                   : std::string(token_of(value)));
     return fields;
   }
   static std::vector<std::string> numbers_of(ondemand::array list) {
@@ -149,7 +148,7 @@ class GeoJsonReader {
     for (ondemand::value value : list) {
       if (value.type() != ondemand::json_type::number)
         throw MalformedRecord("expected numbers as coordinates");
-      numbers.emplace_back(trimmed(value.raw_json_token()));
+      numbers.emplace_back(token_of(value));
     }
     if (numbers.size() < 2) throw MalformedRecord("expected a longitude and a latitude as coordinates");
     return numbers;

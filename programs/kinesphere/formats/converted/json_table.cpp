@@ -76,7 +76,7 @@ std::optional<ConvertedTable> table_of_lines(std::string_view text, const std::s
 
 /// Returns a field of a table for a number, or nothing.
 std::string number_field_of(ondemand::value value) {
-  return value.type() == ondemand::json_type::number ? std::string(trimmed(value.raw_json_token())) : "";
+  return value.type() == ondemand::json_type::number ? std::string(token_of(value)) : "";
 }
 
 /// trace: [[seconds since timestamp, latitude, longitude, barometric altitude in ft or "ground", speed,
@@ -102,9 +102,15 @@ ConvertedTable trace_table(ondemand::document& document, bool geometric) {
   for (ondemand::array point : document["trace"].get_array()) {
     std::array<std::string, fields_read> fields;
     std::size_t place = 0;
-    for (ondemand::value value : point)
-      if (place < fields_read) fields[place++] = number_field_of(value);
-    const std::string& height = fields[geometric ? geometric_height : barometric_height];
+    bool is_on_ground = false;
+    for (ondemand::value value : point) {
+      if (place == barometric_height && value.type() == ondemand::json_type::string)
+        is_on_ground = std::string_view(value.get_string()) == "ground";
+      if (place < fields_read) fields[place] = number_field_of(value);
+      ++place;
+    }
+    std::string& height = fields[geometric ? geometric_height : barometric_height];
+    if (height.empty() && is_on_ground) height = "ground";
     const auto offset = parse_number(fields[seconds]);
     without_height += height.empty() ? 1 : 0;
     if (!offset || height.empty()) continue;
@@ -112,8 +118,7 @@ ConvertedTable trace_table(ondemand::document& document, bool geometric) {
                               fields[latitude], height, fields[speed], fields[course], fields[climb]);
   }
   if (without_height > 0)
-    table.warnings.push_back(
-        fmt::format("{}: {} points on the ground, or without a height, are left out", id, without_height));
+    table.warnings.push_back(fmt::format("{}: {} points without a height are left out", id, without_height));
   return table;
 }
 

@@ -40,6 +40,12 @@ inline void replace_no_numbers(std::string& text) {
   text = std::move(replaced);
 }
 
+/// Returns the text of a number or word as it is written. Precondition: no string, list or object.
+inline std::string_view token_of(ondemand::value& value) {
+  const std::string_view token = value.raw_json_token();
+  return token.substr(0, token.find_last_not_of(" \t\r\n") + 1);
+}
+
 /// Keeps the text of a document, with the padding that simdjson requires.
 class JsonDocumentReader {
  public:

@@ -60,6 +60,8 @@ class CsvFormat final : public ReportFormat {
 
   /// A short stream is asked about at its end.
   void finish(ReportSink& /*sink*/) override {
+    if (choices_.is_recording && !reader_ && !choices_.title.empty())
+      throw UnusableStream(fmt::format("expected positions, but this file ({}) has none", choices_.title));
     if (choices_.is_recording && !reader_)
       throw UnusableStream("expected rows of numbers, but found none" + first_text());
     if (!reader_) check_header();
@@ -128,7 +130,10 @@ class CsvFormat final : public ReportFormat {
   void begin() {
     const TableHead& head = table_.head();
     TableColumns columns = columns_of(head);
-    if (!choices_.title.empty()) columns.format = choices_.title;
+    if (!choices_.title.empty()) {
+      columns.format = choices_.title;
+      columns.is_converted = true;
+    }
     reader_.emplace(head, std::move(columns));
     for (const TableColumns::Body& body : reader_->columns().bodies)
       columns_needed_ = std::max({columns_needed_, body.x + 1, body.y + 1, body.z.value_or(0) + 1});
@@ -137,7 +142,27 @@ class CsvFormat final : public ReportFormat {
     if (const auto rest = reader_->columns().nanoseconds)
       columns_needed_ = std::max(columns_needed_, *rest + 1);
     name_column_ = column_of_names(head);
+    ground_column_ = column_of_ground(head);
     find_class_columns(head);
+  }
+
+  /// Returns the column that says whether an aircraft is on the ground.
+  static std::optional<std::size_t> column_of_ground(const TableHead& head) {
+    for (std::size_t place = 0; place < head.names.size(); ++place) {
+      const std::string name = plain_name(head.names[place]);
+      if (name == "onground" || name == "isonground") return place;
+    }
+    return std::nullopt;
+  }
+  /// True if the row has no height and says that it is on the ground, there or in a column of its own.
+  bool is_on_ground() const {
+    const auto& z = reader_->columns().z();
+    if (!z || reader_->has_height()) return false;
+    if (same_name((*fields_)[z->place], "ground")) return true;
+    if (!ground_column_ || *ground_column_ >= fields_->size()) return false;
+    const std::string_view said = (*fields_)[*ground_column_];
+    return said == "1" || said == "-1" || same_name(said, "true") || same_name(said, "t") ||
+           same_name(said, "yes");
   }
 
   /// Returns the column with callsigns or ships' names. Such names may be ids elsewhere, so one that is read
@@ -195,6 +220,7 @@ class CsvFormat final : public ReportFormat {
                        columns.z() ? position->z * columns.z()->unit : 0.0};
     report.has_height = reader_->has_height();
     report.may_have_height = columns.z().has_value();
+    report.on_ground = is_on_ground();
     report.extent = radius();
     if (choices_.is_recording) return sink.take(report);
     read_velocity(report);
@@ -326,7 +352,7 @@ class CsvFormat final : public ReportFormat {
   std::size_t columns_needed_ = 0;
   std::optional<std::int64_t> last_clock_;  ///< the latest time of day; seconds
   std::int64_t midnights_ = 0;              ///< that clocks have passed
-  std::optional<std::size_t> name_column_;
+  std::optional<std::size_t> name_column_, ground_column_;
   std::optional<std::size_t> status_, type_, mobile_;  ///< columns
   std::vector<MotionPreset> sayable_;
   /// Reports that are checked. More would delay the question; fewer would ask about more rooms, of which they

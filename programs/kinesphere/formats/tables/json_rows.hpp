@@ -93,7 +93,7 @@ class JsonRows {
         return set(name, "");
       default:
         // Numbers keep all their digits.
-        return set(name, std::string(trimmed(value.raw_json_token())));
+        return set(name, std::string(token_of(value)));
     }
   }
   void set(const std::string& name, std::string field) {

@@ -133,7 +133,10 @@ void RowReader::check_likelihood() const {
 }
 
 std::string RowReader::wrong_text(std::size_t column, std::string_view expected) const {
-  return fmt::format("expected {} (column {}), but got {}", expected, column + 1, shown_field(field(column)));
+  const std::string where = columns_.is_converted && column < head_.names.size()
+                                ? fmt::format("'{}'", head_.names[column])
+                                : fmt::format("column {}", column + 1);
+  return fmt::format("expected {} ({}), but got {}", expected, where, shown_field(field(column)));
 }
 
 std::string_view RowReader::name_of(Quantity quantity) const {

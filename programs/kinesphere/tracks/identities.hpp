@@ -1,0 +1,44 @@
+// Which ids are one body, and which are none of interest: --same and --ignore.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kinesphere::program {
+
+/// The texts of the options. @FILE stands for the lines of a file, of which those that begin with # do not
+/// count.
+struct IdentityChoice {
+  std::vector<std::string> same;    ///< each "A=B", or @FILE of such lines: samples of A are samples of B
+  std::vector<std::string> ignore;  ///< each an id, or @FILE with an id at the begin of each line
+};
+
+class Identities {
+ public:
+  /// Throws ProgramError naming the option: for a text of another form, an id that is the same as two others,
+  /// a circle of ids, an id that is ignored and the same as another, and a file that cannot be read.
+  explicit Identities(const IdentityChoice& choice);
+
+  /// Returns the id under which samples of this id count, nothing if they do not. The result is valid as long
+  /// as the argument.
+  std::optional<std::string_view> name_of(std::string_view id);
+  /// Throws ProgramError if an id that the command line itself names has not come. `known` is one that has.
+  void ask_about_unknown(const std::string& known) const;
+
+ private:
+  void add_same(const std::string& text, const std::string& where, bool is_said);
+  void add_ignored(const std::string& id, const std::string& where, bool is_said);
+  void join_chains();
+
+  std::map<std::string, std::string, std::less<>> same_;
+  std::set<std::string, std::less<>> ignored_;
+  /// Ids of the command line that have not come, with their options.
+  std::map<std::string, std::string, std::less<>> awaited_;
+};
+
+}  // namespace kinesphere::program
