@@ -7,6 +7,7 @@
 
 #include "base/json_text.hpp"
 #include "watch/alert_text.hpp"
+#include "watch/pair_distance.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -24,7 +25,7 @@ std::string pair_alert_fields(const AlertContext& context, const MonitorEvent& e
   else if (answer)
     line += fmt::format(R"(, "verdict": "{}")", name_of(answer->verdict));
   line += fmt::format(R"(, "since": {})", json_time(context.times, event.since));
-  if (answer) line += ", " + answer_fields(context, answer.value());
+  if (answer) line += ", " + answer_fields(context, {first, second}, event.level, answer.value());
   const NamedTrack* const one = context.names.find(first);
   const NamedTrack* const other = context.names.find(second);
   if (one != nullptr && other != nullptr)
@@ -49,16 +50,25 @@ std::string json_time(const TimeScale& times, double time) {
   return times.is_number() ? text : fmt::format("\"{}\"", text);
 }
 
-std::string answer_fields(const AlertContext& context, const PairAnswer& answer) {
+std::string answer_fields(const AlertContext& context, const OrderedPair& pair, std::uint32_t level,
+                          const PairAnswer& answer) {
   const auto length = [](double value) {
     return std::isfinite(value) ? fmt::format("{:.6g}", value) : "null";
   };
-  std::string line = fmt::format(
-      R"("distance": [{}, {}], "until": {}, "closest_distance": {}, "closest_time": {}, "likely_time": {}, "ask": {}, "ask_by": {})",
-      length(answer.lower / context.stretch), length(answer.upper), json_time(context.times, answer.until),
-      length(answer.closest_distance), json_time(context.times, answer.closest_time),
-      json_time(context.times, answer.likely_time), json_text(context.names.text(answer.ask)),
-      json_time(context.times, answer.ask_by));
+  const PairDistance now =
+      distance_now(context.monitor, context.settings.separations[level].separation, pair.first, pair.second);
+  std::string line =
+      fmt::format(R"("distance": [{}, {}], "likely_distance": {}, )", length(answer.lower / context.stretch),
+                  length(answer.upper), length(now.likely));
+  line += now.vertical ? fmt::format(R"("vertical_distance": [{}, {}], "likely_vertical": {}, )",
+                                     length(now.vertical->lower), length(now.vertical->upper),
+                                     length(now.vertical->likely))
+                       : R"("vertical_distance": null, "likely_vertical": null, )";
+  line += fmt::format(
+      R"("until": {}, "closest_distance": {}, "closest_time": {}, "likely_time": {}, "ask": {}, "ask_by": {})",
+      json_time(context.times, answer.until), length(answer.closest_distance),
+      json_time(context.times, answer.closest_time), json_time(context.times, answer.likely_time),
+      json_text(context.names.text(answer.ask)), json_time(context.times, answer.ask_by));
   return line +
          fmt::format(
              R"(, "closest_horizontal": {}, "closest_vertical": {}, "relative_speed": {}, "avoidable_until": {}, "inevitable_by": {})",

@@ -25,6 +25,7 @@ struct AlertContext {
   const Monitor& monitor;
   double stretch = 1.0;  ///< distances of the monitor are at most so many times too long
   bool is_geographic = false;
+  double first_time = 0.0;  ///< at which the stream begins
 };
 
 /// Two tracks in the order of their ids as texts, as in alerts.
@@ -33,8 +34,9 @@ struct OrderedPair {
 };
 OrderedPair in_text_order(const TrackNames& names, TrackId a, TrackId b);
 /// Returns the limits of the distance of two tracks and related fields, without the braces: `"distance": [1,
-/// 2], ...`.
-std::string answer_fields(const AlertContext& context, const PairAnswer& answer);
+/// 2], ...`. Precondition: the monitor has both tracks.
+std::string answer_fields(const AlertContext& context, const OrderedPair& pair, std::uint32_t level,
+                          const PairAnswer& answer);
 /// Returns the sources of the declared bounds of a track.
 std::string declarations_of(const NamedTrack& track);
 /// Returns the line of an alert that the track of the event was lost in an encounter.

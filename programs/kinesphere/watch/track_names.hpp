@@ -19,6 +19,9 @@ namespace kinesphere::program {
 /// pairs; TrackNames detects it.
 TrackId track_id_of(std::string_view text);
 
+/// NamedTrack::height_by of a track whose height may be any.
+inline constexpr std::string_view unknown_height = "unknown";
+
 /// State of a track that the monitor does not hold.
 struct NamedTrack {
   std::string text;

@@ -169,7 +169,7 @@ std::string state_of_pair(const AlertContext& context, const Pair& pair) {
       R"({{"first": {}, "second": {}, "separation": {}, "level": {}, "verdict": "{}", "since": {}, {}}})",
       json_text(context.names.text(first)), json_text(context.names.text(second)),
       json_text(context.settings.separations[pair.level].name), pair.level, name_of(answer.verdict),
-      json_time(context.times, pair.since), answer_fields(context, answer));
+      json_time(context.times, pair.since), answer_fields(context, {first, second}, pair.level, answer));
 }
 
 std::string state_of_need(const AlertContext& context, const ReportRequest& need) {

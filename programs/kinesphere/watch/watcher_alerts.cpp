@@ -123,7 +123,8 @@ void Watcher::count_and_report(MonitorEvent event) {
 }
 
 AlertContext Watcher::context() const {
-  return {settings_, times_, names_, *monitor_, frame_ ? frame_->stretch() : 1.0, is_geographic_};
+  return {settings_,      times_,     names_, *monitor_, frame_ ? frame_->stretch() : 1.0,
+          is_geographic_, first_time_};
 }
 
 std::string Watcher::first_time() const {

@@ -230,7 +230,7 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
   auto upright = said(report.height_error, settings_.height_error, track.height_by);
   if (dimensions_ == 3 && !report.has_height) {
     upright = frame_ ? LocalFrame::largest_height : any_height;
-    track.height_by = "unknown";
+    track.height_by = unknown_height;
   }
   result.position_error = frame_
                               ? ErrorBound::cylinder(frame_->position_error(*flat), upright.value_or(*flat))
