@@ -151,22 +151,34 @@ std::string text_of_pair(const AlertContext& context, const MonitorEvent& event)
   return line_of(context, event.time, what_of(event), pair_text(context, event.first, event.second), more);
 }
 
-}  // namespace
-
-std::string alert_text(const AlertContext& context, const MonitorEvent& event, std::string_view left_for) {
-  if (is_of_pair(event.kind)) return text_of_pair(context, event);
-  return line_of(context, event.time, name_of(event.kind), name_in_text(context, event.first),
-                 event.kind == MonitorEventKind::dropped ? left_for : "");
+std::string goes_on_text(const LeftFor& left_for) {
+  return fmt::format("goes on as {}", without_controls(left_for.later));
 }
 
-std::string lost_text(const AlertContext& context, const MonitorEvent& event, const AlertPolicy::Key& key,
-                      const Encounter& encounter) {
-  const std::string more =
-      fmt::format("{} {}; closest {}, expected at {}", name_in_text(context, event.first),
-                  event.kind == MonitorEventKind::stale ? "is stale" : "was dropped",
-                  length_text(context, encounter.loss->closest_distance),
-                  clock_text(context, encounter.loss->closest_time));
-  return line_of(context, event.time, "lost", pair_text(context, key.first, key.second), more);
+}  // namespace
+
+std::string alert_text(const AlertContext& context, const MonitorEvent& event, const LeftFor& left_for) {
+  if (is_of_pair(event.kind)) return text_of_pair(context, event);
+  std::string more;
+  if (event.kind == MonitorEventKind::dropped)
+    more = left_for.later.empty() ? std::string(left_for.reason) : goes_on_text(left_for);
+  return line_of(context, event.time, name_of(event.kind), name_in_text(context, event.first), more);
+}
+
+std::string lost_text(const AlertContext& context, const LostTrack& lost) {
+  const auto& [time, track, key, encounter, left_for] = lost;
+  const std::string what = !left_for.later.empty()      ? goes_on_text(left_for)
+                           : left_for.reason == "stale" ? "is stale"
+                                                        : "was dropped";
+  const std::string more = fmt::format("{} {}; closest {}, expected at {}", name_in_text(context, track),
+                                       what, length_text(context, encounter.loss->closest_distance),
+                                       clock_text(context, encounter.loss->closest_time));
+  return line_of(context, time, "lost", pair_text(context, key.first, key.second), more);
+}
+
+std::string one_body_text(const AlertContext& context, double time, TrackId a, TrackId b) {
+  return line_of(context, time, "one body", pair_text(context, a, b),
+                 "one sender under two ids, or two side by side: place and velocity are the same");
 }
 
 std::string refused_text(const AlertContext& context, const AlertPolicy::Refused& refused) {

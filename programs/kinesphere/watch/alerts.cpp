@@ -35,6 +35,11 @@ std::string pair_alert_fields(const AlertContext& context, const MonitorEvent& e
   return line;
 }
 
+/// Returns the field that names the track that goes on as one that has left; empty without one.
+std::string goes_on_field(const LeftFor& left_for) {
+  return left_for.later.empty() ? "" : fmt::format(R"(, "goes_on_as": {})", json_text(left_for.later));
+}
+
 }  // namespace
 
 OrderedPair in_text_order(const TrackNames& names, TrackId a, TrackId b) {
@@ -91,20 +96,29 @@ std::string declarations_of(const NamedTrack& track) {
   return text;
 }
 
-std::string lost_line(const AlertContext& context, const MonitorEvent& event, const AlertPolicy::Key& key,
-                      const Encounter& encounter) {
-  if (context.settings.text) return lost_text(context, event, key, encounter);
+std::string lost_line(const AlertContext& context, const LostTrack& lost) {
+  if (context.settings.text) return lost_text(context, lost);
+  const auto& [time, track, key, encounter, left_for] = lost;
   const auto [first, second] = in_text_order(context.names, key.first, key.second);
   return fmt::format(
-      R"({{"event": "lost", "time": {}, "track": {}, "reason": "{}", "first": {}, "second": {}, )"
+      R"({{"event": "lost", "time": {}, "track": {}, "reason": "{}"{}, "first": {}, "second": {}, )"
       R"("separation": {}, "level": {}, "predicted": {}, "within": {}, "closest_distance": {:.6g}, )"
       R"("closest_time": {}}})"
       "\n",
-      json_time(context.times, event.time), json_text(context.names.text(event.first)),
-      event.kind == MonitorEventKind::stale ? "stale" : "dropped", json_text(context.names.text(first)),
-      json_text(context.names.text(second)), json_text(context.settings.separations[key.level].name),
-      key.level, encounter.predicted, encounter.within, encounter.loss->closest_distance,
+      json_time(context.times, time), json_text(context.names.text(track)), left_for.reason,
+      goes_on_field(left_for), json_text(context.names.text(first)), json_text(context.names.text(second)),
+      json_text(context.settings.separations[key.level].name), key.level, encounter.predicted,
+      encounter.within, encounter.loss->closest_distance,
       json_time(context.times, encounter.loss->closest_time));
+}
+
+std::string one_body_line(const AlertContext& context, double time, TrackId a, TrackId b) {
+  if (context.settings.text) return one_body_text(context, time, a, b);
+  const auto [first, second] = in_text_order(context.names, a, b);
+  return fmt::format(R"({{"event": "one_body", "time": {}, "first": {}, "second": {}}})"
+                     "\n",
+                     json_time(context.times, time), json_text(context.names.text(first)),
+                     json_text(context.names.text(second)));
 }
 
 std::string group_line(const AlertContext& context, double time, const std::string& name,
@@ -123,14 +137,15 @@ std::string refused_line(const AlertContext& context, const AlertPolicy::Refused
                      refused.alerts);
 }
 
-std::string alert_line(const AlertContext& context, const MonitorEvent& event, std::string_view left_for) {
+std::string alert_line(const AlertContext& context, const MonitorEvent& event, const LeftFor& left_for) {
   if (context.settings.text) return alert_text(context, event, left_for);
   std::string line = fmt::format(R"({{"event": "{}", "time": {}, )", name_of(event.kind),
                                  json_time(context.times, event.time));
   if (is_of_pair(event.kind)) return line + pair_alert_fields(context, event) + "}\n";
   line += fmt::format(R"("track": {})", json_text(context.names.text(event.first)));
   const NamedTrack* const track = context.names.find(event.first);
-  if (event.kind == MonitorEventKind::dropped) line += fmt::format(R"(, "reason": "{}")", left_for);
+  if (event.kind == MonitorEventKind::dropped)
+    line += fmt::format(R"(, "reason": "{}"{})", left_for.reason, goes_on_field(left_for));
   if (event.kind == MonitorEventKind::contradiction) {
     line += fmt::format(R"(, "position_excess": {}, "velocity_excess": {})",
                         json_number(event.position_excess), json_number(event.velocity_excess));

@@ -12,6 +12,7 @@
 #include "formats/streams/source_report.hpp"
 #include "kinesphere/monitor/monitor_event.hpp"
 #include "number/id_index.hpp"
+#include "watch/sighting.hpp"
 
 namespace kinesphere::program {
 
@@ -36,6 +37,7 @@ struct NamedTrack {
   std::optional<FileTime> contradicted_rest{};
   /// Sources of the declared bounds of the latest report.
   std::string_view position_by, height_by, velocity_by, climb_by;
+  Sighting seen{};  ///< kept by SameBodies; without reports where it is not used, and of a group
 };
 
 class TrackNames {

@@ -60,6 +60,9 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "--own", options.own,
           "Watch only the pairs with the track of this id; of AIS gps is the receiver's own position (RMC)")
       ->type_name("ID");
+  command->add_flag("--distinct-ids", options.distinct_ids,
+                    "Each id is a body of its own: no track goes on under another id, and no two ids are one "
+                    "body. Always so with --only undecided");
   command
       ->add_option(
           "--only", options.only,

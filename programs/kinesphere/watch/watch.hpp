@@ -19,6 +19,7 @@ struct WatchOptions {
   std::vector<std::string> separations;
   std::string look_ahead, confirm, hold;
   std::string own;
+  bool distinct_ids = false;
   std::vector<std::string> only, areas;
   std::optional<std::uint64_t> most_alerts;
   std::optional<int> dimensions;

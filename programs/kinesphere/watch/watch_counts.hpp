@@ -41,6 +41,8 @@ struct WatchCounts {
   std::uint64_t behind = 0;               ///< reports taken that are seconds older than others before them
   std::uint64_t of_own = 0;               ///< reports taken of the own track (--own)
   std::uint64_t lost = 0;                 ///< alerts `lost`
+  std::uint64_t handovers = 0;            ///< tracks that have gone on under another id
+  std::uint64_t one_bodies = 0;           ///< alerts `one_body`
   std::uint64_t groups = 0;               ///< groups that have begun
   std::uint64_t grouped = 0;              ///< reports of members of groups that the monitor has not got
   std::array<std::uint64_t, 9> events{};  ///< indexed by MonitorEventKind

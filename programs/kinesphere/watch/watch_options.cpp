@@ -187,6 +187,8 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
                       .undecided = names("undecided"),
                       .tracks = names("tracks")};
   }
+  settings.has_distinct_ids = options.distinct_ids;
+  settings.has_steady_rate = defaults.has_steady_rate;
   settings.text = options.text;
   for (const std::string& text : options.areas) settings.areas.push_back(parse_area(text));
   if (options.most_alerts) settings.most_alerts = *options.most_alerts;
@@ -243,6 +245,7 @@ GivenOptions given_options(const WatchOptions& options) {
        {"--confirm", options.confirm},
        {"--hold", options.hold},
        {"--own", options.own},
+       {"--distinct-ids", options.distinct_ids ? "true" : ""},
        {"--only", fmt::format("{}", fmt::join(options.only, ","))},
        {"--area", fmt::format("{}", fmt::join(options.areas, " "))},
        {"--text", options.text ? "yes" : ""},

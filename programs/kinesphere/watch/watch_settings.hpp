@@ -38,6 +38,8 @@ struct WatchSettings {
   std::vector<NamedSeparation> separations;
   std::string own;  ///< id of the track whose pairs are watched; empty: all pairs are
   AlertKinds kinds;
+  bool has_distinct_ids = false;   ///< each id is a body of its own
+  bool has_steady_rate = true;     ///< SameBodies::Limits
   bool text = false;               ///< alerts are lines of text
   std::vector<WatchedArea> areas;  ///< alerts are about pairs with a track in one of them; empty: all are
   std::uint64_t most_alerts = std::numeric_limits<std::uint64_t>::max();  ///< alerts in a second

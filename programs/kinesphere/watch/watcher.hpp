@@ -15,6 +15,7 @@
 #include "watch/alert_policy.hpp"
 #include "watch/alerts.hpp"
 #include "watch/local_frame.hpp"
+#include "watch/same_bodies.hpp"
 #include "watch/stream_clock.hpp"
 #include "watch/track_groups.hpp"
 #include "watch/track_names.hpp"
@@ -106,13 +107,24 @@ class Watcher final : public ReportSink {
   void write_refused(double time);
   void report_lost(const MonitorEvent& event);
   void enter_area(TrackId track);
+  bool is_in_area(const AlertPolicy::Key& pair) const;
+  std::optional<AlertFate> hold_of(const MonitorEvent& event) const;
+  std::optional<AlertFate> hold_of(TrackId first, TrackId second) const;
+  void begin_bodies();
+  void compare_bodies(TrackId track, Sighting& seen, const TrackReport& report, bool is_first);
+  void release_from(TrackId later);
+  void release(TrackId track);
+  void report_one_body(const SameBodies::Change::Pair& pair);
+  void give_up_until(double time);
+  void hand_over(const SameBodies::GivenUp& given_up);
+  void leave(TrackId track);
   TrackGroups::Cutting cutting() const;
   bool watch_as_group(const SourceReport& report, TrackId id, const TrackReport& on_map,
                       const NamedTrack& track);
   void begin_group(const TrackGroups::Outcome& outcome);
   void end_group(const TrackGroups::Cell& group);
   std::string group_name(const TrackGroups::Cell& group) const;
-  void remove(TrackId track, std::string_view reason);
+  void remove(TrackId track, const LeftFor& left_for);
   const MotionLimits& limits_of(const NamedTrack& track) const {
     return settings_.classes[track.motion_class].limits;
   }
@@ -148,7 +160,8 @@ class Watcher final : public ReportSink {
   int dimensions_ = 3;
   TrackNames names_;
   /// Why tracks were removed whose alerts are still to come.
-  std::map<TrackId, std::string_view> removed_;
+  std::map<TrackId, LeftFor> removed_;
+  std::optional<SameBodies> bodies_;   ///< from the first report on, unless each id counts as a body
   std::optional<TrackGroups> groups_;  ///< from the first report on
   double next_forgetting_ = 0.0;       ///< time at which the stale members of groups are forgotten
   std::map<TrackId, TrackGroups::Cell> group_tracks_;  ///< the tracks that stand for groups

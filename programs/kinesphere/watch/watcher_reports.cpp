@@ -91,6 +91,7 @@ void Watcher::begin_monitor(const SourceReport& report) {
     }
   monitor_.emplace(require(Monitor::create(definition)));
   begin_areas();
+  begin_bodies();
   groups_.emplace(cutting());
 }
 
@@ -176,6 +177,7 @@ void Watcher::deliver(const SourceReport& report) {
     named.velocity_by = track.velocity_by;
     named.climb_by = track.climb_by;
   }
+  compare_bodies(id, named.seen, *on_map, known == nullptr);
   enter_area(id);
 }
 
