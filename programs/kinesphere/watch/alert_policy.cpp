@@ -22,8 +22,11 @@ AlertFate AlertPolicy::take(MonitorEvent& event, bool is_in_area, std::optional<
   const auto found = encounters_.find(key);
   Encounter encounter = found == encounters_.end() ? Encounter{} : found->second;
   AlertFate fate = fate_of(event, encounter);
-  encounter.is_held = held.has_value();
-  if (fate == AlertFate::written && held) fate = *held;
+  encounter.is_held = encounter.is_held || held;
+  // Two at rest are told once.
+  const bool is_told_held = held == AlertFate::at_rest && begins(event, encounter) && !encounter.is_told();
+  if (fate == AlertFate::written && encounter.is_held && !is_told_held)
+    fate = held.value_or(AlertFate::encounter);
   if (fate == AlertFate::written && !is_in_area) fate = AlertFate::elsewhere;
   if (fate == AlertFate::written && !has_room(event.time)) fate = AlertFate::too_many;
   if (begins(event, encounter)) {
@@ -42,7 +45,7 @@ AlertFate AlertPolicy::take(MonitorEvent& event, bool is_in_area, std::optional<
   else if (event.verdict != Verdict::undecided)
     encounter.within = event.verdict == Verdict::within;
   // The end of one that is held is still to be told.
-  if (encounter.predicted || encounter.within || (held && encounter.is_told())) {
+  if (encounter.predicted || encounter.within || (encounter.is_held && encounter.is_told())) {
     put(key, encounter);
   } else if (found != encounters_.end()) {
     erase(key);
@@ -97,9 +100,9 @@ std::vector<MonitorEvent> AlertPolicy::enter_area(TrackId track, double time) {
   return events;
 }
 
-std::optional<MonitorEvent> AlertPolicy::release(const Key& key, double time, bool is_in_area) {
+std::optional<MonitorEvent> AlertPolicy::release(const Key& key, double time, bool is_in_area, bool held) {
   Encounter& encounter = encounters_.at(key);
-  encounter.is_held = false;
+  encounter.is_held = held;
   const bool is_on = (encounter.within && kinds_.within) || (encounter.predicted && kinds_.predicted);
   if (is_on) {
     const bool is_news = encounter.within && kinds_.within ? !encounter.within_told : !encounter.is_told();

@@ -24,10 +24,11 @@ enum class AlertFate {
   other_kind,  ///< another kind that is not asked for
   encounter,   ///< another alert of the same encounter tells it
   same_body,   ///< the two may be one body under two ids (SameBodies)
+  at_rest,     ///< both are at rest (RestRule), and have been told once
   elsewhere,   ///< neither track is in an area (--area)
   too_many,    ///< there were too many alerts in this second (--most-alerts)
 };
-inline constexpr std::size_t alert_fates = 8;
+inline constexpr std::size_t alert_fates = 9;
 
 /// Two tracks at one separation, from the event that they come within it until it is over: until they are no
 /// longer predicted to, and, if they certainly were within it, are certainly apart.
@@ -65,12 +66,13 @@ class AlertPolicy {
   AlertPolicy(const AlertKinds& kinds, std::uint64_t most_alerts) : kinds_(kinds), most_(most_alerts) {}
 
   /// Takes the next event of a pair. `is_in_area`: one of its tracks is in an area, or there are no areas.
-  /// `held`: the fate of all events of the pair for now; then call release() when that ends. Where the event
-  /// is written, `before` and `since` of a verdict are set to what alerts have told.
+  /// `held`: the fate of all events of the pair from now on, until release(); of two at rest, of all but the
+  /// first one. Where the event is written, `before` and `since` of a verdict are set to what alerts have
+  /// told.
   AlertFate take(MonitorEvent& event, bool is_in_area, std::optional<AlertFate> held = std::nullopt);
-  /// Events of a pair are told again. Returns the event that tells what has changed for the reader meanwhile,
-  /// if one is due. Precondition: there is this encounter, and it is held.
-  std::optional<MonitorEvent> release(const Key& key, double time, bool is_in_area);
+  /// Events of a pair are told again or, if it is `held` further, once. Returns the event that tells what has
+  /// changed for the reader meanwhile, if one is due. Precondition: there is this encounter, and it is held.
+  std::optional<MonitorEvent> release(const Key& key, double time, bool is_in_area, bool held = false);
   /// Returns the events that tell of encounters of a track which begin for the reader when the track enters
   /// an area. Cost: O(log(encounters) + encounters of the track).
   std::vector<MonitorEvent> enter_area(TrackId track, double time);

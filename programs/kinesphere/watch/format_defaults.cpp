@@ -41,6 +41,7 @@ FormatDefaults of_vessels() {
           .forget = 600.0,
           .window = 16.0,
           .look_ahead = 60.0,
+          .rest_speed = 0.5,
           .has_steady_rate = false};
 }
 

@@ -140,6 +140,13 @@ bool SameBodies::may_be(const TrackReport& report, TrackId other, const Monitor&
   });
 }
 
+/// Returns true if a track is in a place no larger than the separation. Of others that are silent it cannot
+/// be said whether they have ended.
+bool SameBodies::is_known_well(TrackId track, const Monitor& monitor) const {
+  const auto view = monitor.track(track);
+  return view && view->places.front().radius.horizontal() <= limits_.horizontal;
+}
+
 /// Returns true if a report is of a velocity that errors do not explain: then equal ones say something.
 bool SameBodies::is_moving(const TrackReport& report, TrackId other) const {
   return flat_length(report.state.velocity) >
@@ -179,15 +186,13 @@ void SameBodies::unschedule(TrackId later) {
 
 double SameBodies::next_time() const { return due_.empty() ? never : due_.begin()->first; }
 
-std::optional<SameBodies::GivenUp> SameBodies::give_up(double time) {
+std::optional<SameBodies::GivenUp> SameBodies::give_up(double time, const Monitor& monitor) {
   if (next_time() > time) return std::nullopt;
   const TrackId later = due_.begin()->second;
   const TrackId former = find(later)->link.former;
-  if (former == limits_.own) {
-    part(later);
-    return GivenUp{former, later, false};
-  }
   part(later);
+  const bool may_be_there = !limits_.has_steady_rate && !is_known_well(former, monitor);
+  if (former == limits_.own || may_be_there) return GivenUp{former, later, false};
   // The former one may itself be another one that has ended.
   Sighting& ended = *find(former);
   if (const Sighting::Link link = ended.link; link.former != 0) {

@@ -57,10 +57,12 @@ class SameBodies {
   /// The earlier one of a link has been silent for so long that it is given up.
   struct GivenUp {
     TrackId former = 0, later = 0;
-    bool is_handover = false;  ///< the later one goes on as it; false for the own track: they have parted
+    /// The later one goes on as it. False for the own track, and for one that may be silent though it has not
+    /// ended, in a place larger than the separation: these count as two bodies.
+    bool is_handover = false;
   };
   /// Returns the next link that has to be given up by this time, which is over then.
-  std::optional<GivenUp> give_up(double time);
+  std::optional<GivenUp> give_up(double time, const Monitor& monitor);
   /// Returns when the next link has to be given up; +infinity if none.
   double next_time() const;
   /// Call it before a track leaves the names. Returns the later one of two that have parted by that; 0: none.
@@ -87,6 +89,7 @@ class SameBodies {
   void compare(TrackId later, const TrackReport& report, TrackId other, const Monitor& monitor,
                Change& change);
   bool may_be(const TrackReport& report, TrackId other, const Monitor& monitor) const;
+  bool is_known_well(TrackId track, const Monitor& monitor) const;
   bool is_moving(const TrackReport& report, TrackId other) const;
   bool goes_back_to(TrackId track, TrackId earlier) const;
 

@@ -12,6 +12,7 @@
 #include "formats/streams/source_report.hpp"
 #include "kinesphere/monitor/monitor_event.hpp"
 #include "number/id_index.hpp"
+#include "watch/rest.hpp"
 #include "watch/sighting.hpp"
 
 namespace kinesphere::program {
@@ -38,6 +39,7 @@ struct NamedTrack {
   /// Sources of the declared bounds of the latest report.
   std::string_view position_by, height_by, velocity_by, climb_by;
   Sighting seen{};  ///< kept by SameBodies; without reports where it is not used, and of a group
+  Rest rest{};
 };
 
 class TrackNames {

@@ -60,9 +60,33 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "--own", options.own,
           "Watch only the pairs with the track of this id; of AIS gps is the receiver's own position (RMC)")
       ->type_name("ID");
+  command
+      ->add_option(
+          "--same", options.same,
+          "Two ids of one body, once or several times: reports of B count as those of A; or a file with "
+          "A=B or A,B in each line")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all()
+      ->type_name("A=B|@FILE");
+  command
+      ->add_option(
+          "--ignore", options.ignored,
+          "Leave out the reports of this id, once or several times, or of a file with an id in each line")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all()
+      ->type_name("ID|@FILE");
   command->add_flag("--distinct-ids", options.distinct_ids,
                     "Each id is a body of its own: no track goes on under another id, and no two ids are one "
                     "body. Always so with --only undecided");
+  command
+      ->add_option(
+          "--rest", options.rest,
+          "Two tracks that both have been no faster than this for three minutes, or since they were first "
+          "heard, are told once until one of them gets under way; 0.5 m/s of vessels when not given, of "
+          "others 0: no track is at rest")
+      ->type_name("SPEED");
   command
       ->add_option(
           "--only", options.only,

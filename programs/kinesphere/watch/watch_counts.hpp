@@ -27,7 +27,7 @@ struct WatchCounts {
   std::uint64_t on_ground = 0;  ///< aircraft without a height, as they say that they are on the ground
   std::uint64_t no_bound = 0;
   std::uint64_t no_velocity = 0;  ///< neither it nor the largest speed is known
-  std::uint64_t filtered = 0;     ///< left out by --where
+  std::uint64_t filtered = 0;     ///< left out by --where or --ignore
   std::uint64_t superseded = 0;   ///< from before their track had its present class
   std::uint64_t crowded = 0;      ///< reports of new tracks at the limit of tracks or open pairs
   std::uint64_t malformed = 0;

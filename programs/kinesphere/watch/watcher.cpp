@@ -31,6 +31,14 @@ Watcher::Watcher(WatchSettings settings, AlertFn alert)
 }
 
 void Watcher::take(const SourceReport& report) {
+  if (settings_.ids.is_empty()) return take_of_body(report);
+  if (settings_.ids.ignores(report.id)) return pass_over(Passed::filtered);
+  SourceReport of_body = report;
+  of_body.id = settings_.ids.body_of(report.id);
+  take_of_body(of_body);
+}
+
+void Watcher::take_of_body(const SourceReport& report) {
   if (!clock_is_chosen_) {
     clock_is_chosen_ = true;
     clock_.set_source(report.arrival ? StreamClock::Source::arrivals : StreamClock::Source::stamps);

@@ -86,6 +86,8 @@ class Watcher final : public ReportSink {
     return clock_.source() == StreamClock::Source::arrivals && report.arrival ? *report.arrival
                                                                               : report.stamp;
   }
+  /// Takes a report whose id is that of its body (IdRules).
+  void take_of_body(const SourceReport& report);
   void hold(const SourceReport& report);
   void drop_held();
   void deliver_held();
@@ -112,8 +114,11 @@ class Watcher final : public ReportSink {
   std::optional<AlertFate> hold_of(TrackId first, TrackId second) const;
   void begin_bodies();
   void compare_bodies(TrackId track, Sighting& seen, const TrackReport& report, bool is_first);
+  void note_rest(TrackId id, NamedTrack& track, const SourceReport& report, const TrackReport& on_map,
+                 bool is_first);
   void release_from(TrackId later);
   void release(TrackId track);
+  void release_due();
   void report_one_body(const SameBodies::Change::Pair& pair);
   void give_up_until(double time);
   void hand_over(const SameBodies::GivenUp& given_up);
@@ -159,6 +164,8 @@ class Watcher final : public ReportSink {
   bool is_geographic_ = false;
   int dimensions_ = 3;
   TrackNames names_;
+  RestRule rest_;
+  std::vector<TrackId> to_release_;  ///< tracks of which pairs are held no more, during a report
   /// Why tracks were removed whose alerts are still to come.
   std::map<TrackId, LeftFor> removed_;
   std::optional<SameBodies> bodies_;   ///< from the first report on, unless each id counts as a body

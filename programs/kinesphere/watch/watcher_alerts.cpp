@@ -99,7 +99,8 @@ void Watcher::report_lost(const MonitorEvent& event) {
       const PairAnswer answer = require(monitor_->answer(key.first, key.second, key.level));
       encounter.loss = Encounter::Loss{answer.closest_time, answer.closest_distance};
     }
-    if (!settings_.kinds.lost || !encounter.loss || !encounter.is_told()) continue;
+    const bool is_on = encounter.predicted || encounter.within;
+    if (!settings_.kinds.lost || !encounter.loss || !encounter.is_told() || !is_on) continue;
     // Streams that lose a report now and then tell of it once.
     if (event.kind == MonitorEventKind::stale && std::exchange(encounter.silence_told, true)) continue;
     ++counts_.alerts;

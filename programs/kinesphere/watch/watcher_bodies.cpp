@@ -1,6 +1,8 @@
-// Ids that may be one body: what is told of them, and of tracks that go on under another id.
+// Pairs of which nothing more is told for a while: ids that may be one body, and tracks at rest. Tracks that
+// go on under another id.
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "base/program_error.hpp"
 #include "watch/watcher.hpp"
@@ -9,6 +11,7 @@ namespace kinesphere::program {
 
 /// Precondition: there is a monitor.
 void Watcher::begin_bodies() {
+  rest_ = {.speed = settings_.rest_speed, .room = cutting().edge};
   // Who asks for each change of a verdict gets those of all ids.
   if (settings_.has_distinct_ids || settings_.kinds.undecided) return;
   constexpr double any = std::numeric_limits<double>::infinity();
@@ -35,14 +38,31 @@ std::optional<AlertFate> Watcher::hold_of(const MonitorEvent& event) const {
 
 std::optional<AlertFate> Watcher::hold_of(TrackId first, TrackId second) const {
   if (bodies_ && bodies_->may_be_one(first, second)) return AlertFate::same_body;
-  return std::nullopt;
+  if (rest_.speed == 0.0) return std::nullopt;
+  const NamedTrack* const one = names_.find(first);
+  const NamedTrack* const other = names_.find(second);
+  const bool are_at_rest =
+      one != nullptr && other != nullptr && one->rest.is_at_rest && other->rest.is_at_rest;
+  return are_at_rest ? std::optional(AlertFate::at_rest) : std::nullopt;
+}
+
+/// Takes the latest report of a track, which may get under way by it.
+void Watcher::note_rest(TrackId id, NamedTrack& track, const SourceReport& report, const TrackReport& on_map,
+                        bool is_first) {
+  if (rest_.speed == 0.0) return;
+  std::optional<double> speed = report.ground_speed;
+  if (!speed && report.velocity) speed = norm({report.velocity->x, report.velocity->y, 0.0});
+  if (!speed && report.said_kind == MotionPreset::aid_to_navigation) speed = 0.0;
+  if (rest_.take(track.rest, on_map.state.position, speed, on_map.timestamp, is_first))
+    to_release_.push_back(id);
 }
 
 /// Takes a report that the monitor has taken.
 void Watcher::compare_bodies(TrackId track, Sighting& seen, const TrackReport& report, bool is_first) {
   if (!bodies_) return;
   const SameBodies::Change change = bodies_->take(track, seen, report, is_first, *monitor_);
-  for (const TrackId later : change.parted) release_from(later);
+  for (const TrackId later : change.parted)
+    for (TrackId each = later; each != 0; each = bodies_->later_of(each)) to_release_.push_back(each);
   if (change.one_body) report_one_body(*change.one_body);
 }
 
@@ -52,11 +72,22 @@ void Watcher::release_from(TrackId later) {
   for (TrackId track = later; track != 0; track = bodies_->later_of(track)) release(track);
 }
 
+/// Tells of the encounters that are held no more by the report that has just been taken, as they are with it.
+void Watcher::release_due() {
+  if (to_release_.empty()) return;
+  advance(monitor_->time());
+  for (const TrackId track : std::exchange(to_release_, {})) release(track);
+}
+
 /// Tells of the encounters of a track that are held no more.
 void Watcher::release(TrackId track) {
   for (const AlertPolicy::Key& key : policy_.encounters_of(track)) {
-    if (!policy_.encounter(key).is_held || hold_of(key.first, key.second)) continue;
-    const auto event = policy_.release(key, monitor_->time(), is_in_area(key));
+    const Encounter& encounter = policy_.encounter(key);
+    const auto hold = hold_of(key.first, key.second);
+    // Two at rest are told once.
+    const bool is_told_held = hold == AlertFate::at_rest && !encounter.is_told();
+    if (!encounter.is_held || (hold && !is_told_held)) continue;
+    const auto event = policy_.release(key, monitor_->time(), is_in_area(key), hold.has_value());
     if (!event) continue;
     ++counts_.alerts;
     write(event->first, alert_line(context(), *event, {}));
@@ -79,7 +110,7 @@ void Watcher::give_up_until(double time) {
   if (!bodies_) return;
   while (bodies_->next_time() <= time) {
     advance(std::max(monitor_->time(), bodies_->next_time()));
-    const auto given_up = bodies_->give_up(monitor_->time());
+    const auto given_up = bodies_->give_up(monitor_->time(), *monitor_);
     if (!given_up) continue;
     if (!given_up->is_handover) {
       release_from(given_up->later);

@@ -70,6 +70,7 @@ bool Watcher::watch_as_group(const SourceReport& report, TrackId id, const Track
   named.text = name;
   named.stamp = report.stamp;
   named.position = report.position;
+  named.rest.is_at_rest = rest_.speed > 0.0;
   return true;
 }
 

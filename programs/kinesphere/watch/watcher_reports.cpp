@@ -176,9 +176,11 @@ void Watcher::deliver(const SourceReport& report) {
     named.height_by = track.height_by;
     named.velocity_by = track.velocity_by;
     named.climb_by = track.climb_by;
+    note_rest(id, named, report, *on_map, known == nullptr);
   }
   compare_bodies(id, named.seen, *on_map, known == nullptr);
   enter_area(id);
+  release_due();
 }
 
 bool Watcher::is_superseded(const SourceReport& report, const NamedTrack& known, std::size_t motion_class) {

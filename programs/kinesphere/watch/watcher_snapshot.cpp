@@ -97,9 +97,21 @@ namespace {
 
 Json saved(const NamedTrack& track) {
   const auto& [text, name, stamp, position, extent, motion_class, class_since, contradicted_rest, position_by,
-               height_by, velocity_by, climb_by, seen] = track;
-  return {text,   stamp,        position,    position_by,       height_by, velocity_by, climb_by,
-          extent, motion_class, class_since, contradicted_rest, name,      seen};
+               height_by, velocity_by, climb_by, seen, rest] = track;
+  return {text,
+          stamp,
+          position,
+          position_by,
+          height_by,
+          velocity_by,
+          climb_by,
+          extent,
+          motion_class,
+          class_since,
+          contradicted_rest,
+          name,
+          seen,
+          {rest.is_at_rest, saved(rest.slow_since), rest.place}};
 }
 
 /// Arrays of tracks are packed into CBOR: as JSON in memory they would take ten times as much.
@@ -181,6 +193,8 @@ void Watcher::restore(const Json& state) {
         throw ProgramError("expected a class of each track in the snapshot");
       track.name = saved.at(11);
       track.seen = saved.at(12);
+      const Json& rest = saved.at(13);
+      track.rest = {rest.at(0), infinite_if_null(rest.at(1)), rest.at(2)};
     }
   }
   counts_ = state.at("counts");

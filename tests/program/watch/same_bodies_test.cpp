@@ -239,6 +239,26 @@ TEST_F(SameBodiesWatch, AnEchoIsToldOnce) {
             std::string::npos);
 }
 
+/// Ships at rest report every three minutes, and of a ship whose limits are wide one lost report says little.
+TEST_F(SameBodiesWatch, AShipOfWhichAReportIsLostIsStillThere) {
+  std::string text = "MMSI,BaseDateTime,LAT,LON,SOG,COG\n";
+  const auto add = [&](int id, int second, double latitude) {
+    text += fmt::format("{},2026-03-01T12:{:02}:{:02},{:.4f},9.0000,0.2,0\n", id, second / 60, second % 60,
+                        latitude);
+  };
+  for (int second = 0; second <= 700; second += 20) {
+    if (second % 180 == 0 && second < 400) add(211000001, second, 53.5);
+    if (second >= 400) add(211000002, second, 53.5027);
+    add(211000003, second, 53.6);
+  }
+  const ProgramRun result = run("watch " + write("ais.csv", text) + " --separation sphere:0.5NM --summary '" +
+                                path("summary.json") + "'");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const Json summary = Json::parse(read_text(path("summary.json")));
+  EXPECT_EQ(summary["handovers"], 0);
+  EXPECT_EQ(summary["tracks"], 3);
+}
+
 TEST_F(SameBodiesWatch, TwoThatSeemedOneAreToldWhenTheyPart) {
   // From 15 s on they are 8 m apart.
   const std::vector<Body> bodies{{"a", {here, fast}, 0, 30},
