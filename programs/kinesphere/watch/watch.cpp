@@ -261,7 +261,14 @@ int watch(const WatchOptions& options) {
   }
   conclude();
   const WatchCounts& counts = watch.watcher().counts();
-  if (watch.watcher().monitor_counters().reports > 0) return exit_fine;
+  const std::uint64_t taken = watch.watcher().monitor_counters().reports;
+  if (counts.stale > taken && taken > 0 && watch.is_file())
+    throw ProgramError(fmt::format(
+        "{}: expected rows in the order of their times, but {} of {} reports are older than others "
+        "before them by more than --forget, and were not taken: sort them first; tracks reads "
+        "rows in any order",
+        watch.watcher().settings().source, counts.stale, counts.stale + taken));
+  if (taken > 0) return exit_fine;
   if (const std::string reasons = reasons_text(watch.watcher()); !reasons.empty())
     throw ProgramError(
         fmt::format("{}: expected reports of format {} that can be used, but there are none: {}{}",
