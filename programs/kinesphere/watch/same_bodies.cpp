@@ -19,6 +19,9 @@ constexpr std::uint32_t enough_reports = 4;
 constexpr double remembered = 0.875;
 /// A link is given up before its track is stale, at this part of that time.
 constexpr double before_stale = 0.95;
+/// For so many intervals a track may be anywhere in what its class allows, and a track that begins there may
+/// go on as it; later it has to begin near where the other one would be straight on.
+constexpr double near_intervals = 5.0;
 /// Reports of each of two that are alike before they are one body.
 constexpr std::uint32_t enough_alike = 3;
 
@@ -82,10 +85,10 @@ void SameBodies::link(TrackId track, const TrackReport& report, const Monitor& m
     const double gap = report.timestamp - entry.stamp;
     const Vec3 between = entry.state.position + entry.state.velocity * gap - report.state.position;
     const double flat = flat_length(between);
-    if (flat > nearest || flat > limits_.horizontal || std::abs(between.z) > limits_.vertical ||
-        std::abs(gap) > limits_.silence || entry.track == track)
-      return;
+    if (flat > nearest || std::abs(gap) > limits_.silence || entry.track == track) return;
     if (flat == nearest && entry.track > former) return;
+    const bool is_soon = limits_.has_steady_rate && gap <= near_intervals * find(entry.track)->interval;
+    if (!is_soon && (flat > limits_.horizontal || std::abs(between.z) > limits_.vertical)) return;
     // A track that has reported at this time is another body, or of one sender.
     if (gap <= 0.0 && !is_moving(report, entry.track)) return;
     if (find(entry.track)->later != 0 || !may_be(report, entry.track, monitor)) return;
@@ -96,7 +99,7 @@ void SameBodies::link(TrackId track, const TrackReport& report, const Monitor& m
   find(former)->later = track;
   Sighting& seen = *find(track);
   seen.link = {.former = former, .may_go_on = find(former)->stamp < report.timestamp};
-  if (seen.link.may_go_on) schedule(track);
+  schedule(track);
 }
 
 /// Compares a report of one of two linked tracks with the other one. If they can not be one body under two
@@ -108,7 +111,7 @@ void SameBodies::compare(TrackId later, const TrackReport& report, TrackId other
     change.parted.push_back(later);
     return;
   }
-  unschedule(later);
+  schedule(later);
   Sighting::Link& link = find(later)->link;
   const TrackId latest = find(later)->later;
   if (link.may_go_on && latest != 0) change.parted.push_back(latest);
@@ -200,7 +203,7 @@ std::optional<SameBodies::GivenUp> SameBodies::give_up(double time, const Monito
     find(link.former)->later = later;
     find(later)->link = link;
     find(later)->link.due = never;
-    if (link.may_go_on) schedule(later);
+    schedule(later);
   }
   given_up_[former] = time;
   return GivenUp{former, later, true};
