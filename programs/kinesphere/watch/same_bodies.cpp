@@ -20,7 +20,7 @@ constexpr double remembered = 0.875;
 /// A link is given up before its track is stale, at this part of that time.
 constexpr double before_stale = 0.95;
 /// For so many intervals a track may be anywhere in what its class allows, and a track that begins there may
-/// go on as it; later it has to begin near where the other one would be straight on.
+/// go on as it; later that says nothing but where the place is small, and near where it would be straight on.
 constexpr double near_intervals = 5.0;
 /// Reports of each of two that are alike before they are one body.
 constexpr std::uint32_t enough_alike = 3;
@@ -88,7 +88,8 @@ void SameBodies::link(TrackId track, const TrackReport& report, const Monitor& m
     if (flat > nearest || std::abs(gap) > limits_.silence || entry.track == track) return;
     if (flat == nearest && entry.track > former) return;
     const bool is_soon = limits_.has_steady_rate && gap <= near_intervals * find(entry.track)->interval;
-    if (!is_soon && (flat > limits_.horizontal || std::abs(between.z) > limits_.vertical)) return;
+    const bool is_near = flat <= limits_.horizontal && std::abs(between.z) <= limits_.vertical;
+    if (!is_soon && !(is_near && is_known_well(entry.track, monitor))) return;
     // A track that has reported at this time is another body, or of one sender.
     if (gap <= 0.0 && !is_moving(report, entry.track)) return;
     if (find(entry.track)->later != 0 || !may_be(report, entry.track, monitor)) return;
@@ -230,6 +231,13 @@ bool SameBodies::goes_back_to(TrackId track, TrackId earlier) const {
     if (!seen->link.may_go_on) return false;
   }
   return false;
+}
+
+std::vector<SameBodies::Change::Pair> SameBodies::undecided() const {
+  std::vector<Change::Pair> pairs;
+  for (const auto& [time, later] : due_)
+    if (find(later)->link.may_go_on) pairs.push_back({find(later)->link.former, later});
+  return pairs;
 }
 
 TrackId SameBodies::later_of(TrackId track) const {

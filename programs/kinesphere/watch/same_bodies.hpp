@@ -69,6 +69,8 @@ class SameBodies {
   TrackId remove(TrackId track);
   /// Returns true for two tracks that may be one body.
   bool may_be_one(TrackId a, TrackId b) const;
+  /// Returns the linked tracks of which no report has shown yet whether they are one body.
+  std::vector<Change::Pair> undecided() const;
   /// Returns the track that is linked to this one and began later; 0: none.
   TrackId later_of(TrackId track) const;
   /// Forgets the ids that were given up before this time, which then may be linked again.

@@ -284,6 +284,7 @@ void WatchRun::run() {
     warn_of_disorder();
     warn_of_one_track();
     warn_of_one_moment();
+    warn_of_undecided_bodies();
   }
   alerts_->flush(source_->position(cutter_.waiting().size()));
 }
@@ -487,6 +488,16 @@ void WatchRun::warn_of_one_moment() {
         "kinesphere: warning: {}: it has one report of each track, as of one moment: alerts tell who is near "
         "then, and what is predicted from there\n",
         source_->name());
+}
+
+/// Warns of pairs that are not told as the stream has ended too early.
+void WatchRun::warn_of_undecided_bodies() {
+  const std::size_t pairs = watcher_.undecided_bodies();
+  if (pairs > 0 && !options_.quiet)
+    print_message(
+        "kinesphere: warning: {}: {} tracks that have just begun may be others under another id, and are not "
+        "told as near to these: it ends before reports show it (--distinct-ids tells all)\n",
+        source_->name(), pairs);
 }
 
 /// Warns if the own track is none of the stream's so far.

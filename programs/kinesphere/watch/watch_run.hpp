@@ -56,6 +56,7 @@ class WatchRun {
   void warn_of_disorder();
   void warn_of_one_track();
   void warn_of_one_moment();
+  void warn_of_undecided_bodies();
   void put_in_order();
   void warn_once(bool& has_warned, std::string_view warning);
   bool is_time_for_snapshot() const;

@@ -64,6 +64,9 @@ class Watcher final : public ReportSink {
   std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
   /// True if a report had a height that does not count, since the first report had none.
   bool ignores_heights() const { return ignores_heights_; }
+  /// Returns the number of pairs of which nothing is told because reports have not shown yet whether they are
+  /// one body.
+  std::size_t undecided_bodies() const;
   /// Empty before the first report has been taken.
   const std::optional<Monitor>& monitor() const { return monitor_; }
   const std::optional<LocalFrame>& frame() const { return frame_; }
@@ -96,6 +99,12 @@ class Watcher final : public ReportSink {
   /// Moves time on, and emits alerts that are certain by then.
   void go_on(const FileTime& time);
   void deliver(const SourceReport& report);
+  static bool knows_velocity(const SourceReport& report);
+  bool lacks_height(const SourceReport& report) const { return dimensions_ == 3 && !report.has_height; }
+  void refuse_without_velocity();
+  bool is_usable(const SourceReport& report, const NamedTrack* known, const NamedTrack& track);
+  void remember(TrackId id, const SourceReport& report, NamedTrack& named, const NamedTrack& track,
+                const TrackReport& on_map, bool is_first);
   void begin_monitor(const SourceReport& report);
   void begin_map(const WatchSettings::Origin& origin);
   /// `track` has the class of the report.

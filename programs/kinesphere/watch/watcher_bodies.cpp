@@ -57,6 +57,17 @@ void Watcher::note_rest(TrackId id, NamedTrack& track, const SourceReport& repor
     to_release_.push_back(id);
 }
 
+std::size_t Watcher::undecided_bodies() const {
+  if (!bodies_) return 0;
+  const auto pairs = bodies_->undecided();
+  return static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [this](const auto& pair) {
+    const auto keys = policy_.encounters_of(pair.later);
+    return std::any_of(keys.begin(), keys.end(), [&](const AlertPolicy::Key& key) {
+      return key.first == pair.former || key.second == pair.former;
+    });
+  }));
+}
+
 /// Takes a report that the monitor has taken.
 void Watcher::compare_bodies(TrackId track, Sighting& seen, const TrackReport& report, bool is_first) {
   if (!bodies_) return;

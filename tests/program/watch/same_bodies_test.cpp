@@ -206,6 +206,24 @@ TEST_F(SameBodiesWatch, AnEncounterGoesOnUnderTheOtherId) {
             std::string::npos);
 }
 
+TEST_F(SameBodiesWatch, SaysWhatItsEndLeavesOpen) {
+  const std::string open = "1 tracks that have just begun may be others under another id";
+  std::vector<Body> bodies{{"old", {here, still}, 0, 10}, {"new", {{2, 0, 50}, still}, 10.5, 10.5}};
+  EXPECT_EQ(told(stream_of(bodies)), "");
+  EXPECT_NE(run("watch " + path("s.jsonl") + promises).err.find(open), std::string::npos);
+  EXPECT_EQ(run("watch " + path("s.jsonl") + promises + "--distinct-ids").err.find(open), std::string::npos);
+  bodies.back().until = 20;
+  EXPECT_EQ(told(stream_of(bodies)), "");
+  EXPECT_EQ(run("watch " + path("s.jsonl") + promises).err.find(open), std::string::npos);
+  // A track that may be anywhere says nothing of another one.
+  write("far.jsonl", stream_of({{"old", {here, still}, 0, 0}, {"new", {{2, 0, 50}, still}, 9, 9}}));
+  EXPECT_NE(run("watch " + path("far.jsonl") +
+                " --separation sphere:20:10s --acceleration 5 --position-error 1 --velocity-error 0.3" +
+                " --text --quiet")
+                .out.find("predicted"),
+            std::string::npos);
+}
+
 TEST_F(SameBodiesWatch, CanBeSwitchedOff) {
   const std::string stream = stream_of({{"old", {here, still}, 0, 10}, {"new", {{3, 0, 50}, still}, 11, 30}});
   EXPECT_EQ(told(stream), "");
