@@ -179,6 +179,20 @@ TEST_F(Harbour, TellsOfAllThatMeetAndOnceOfThoseThatLieThere) {
   }
 }
 
+TEST_F(Harbour, IsKnownAgainAfterAStop) {
+  Random random(4);
+  const std::string text = table(harbour(random), random);
+  const std::string options = " --separation sphere:300m --quiet ";
+  const ProgramRun whole = run("watch " + write("ais.csv", text) + options);
+  std::string parts;
+  for (int part = 1; part <= 6; ++part) {
+    write("ais.csv", text.substr(0, text.size() * static_cast<std::size_t>(part) / 6));
+    parts += run("watch " + path("ais.csv") + options + "--snapshot '" + path("state") + "'").out;
+  }
+  EXPECT_TRUE(parts == whole.out);
+  EXPECT_GT(std::count(parts.begin(), parts.end(), '\n'), 500);
+}
+
 TEST_F(Harbour, TellsWhatHasChangedWhenABoatGetsUnderWay) {
   const std::string head = "id,time,x,y,vx,vy\n";
   const auto stream = [&](const std::string& later) {
