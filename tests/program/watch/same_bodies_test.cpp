@@ -206,6 +206,13 @@ TEST_F(SameBodiesWatch, AnEncounterGoesOnUnderTheOtherId) {
             std::string::npos);
 }
 
+TEST_F(SameBodiesWatch, TheOwnTrackIsNeverGivenUp) {
+  const std::vector<Body> bodies{{"own", {here, still}, 0, 10}, {"new", {{2, 0, 50}, still}, 11, 30}};
+  EXPECT_EQ(told(stream_of(bodies), "--only within"), "");
+  EXPECT_EQ(told(stream_of(bodies), "--own own --only within"), "13.0 within new own\n");
+  EXPECT_EQ(summary_["handovers"], 0);
+}
+
 TEST_F(SameBodiesWatch, SaysWhatItsEndLeavesOpen) {
   const std::string open = "1 tracks that have just begun may be others under another id";
   std::vector<Body> bodies{{"old", {here, still}, 0, 10}, {"new", {{2, 0, 50}, still}, 10.5, 10.5}};
