@@ -223,6 +223,18 @@ TEST_F(Harbour, TellsWhatHasChangedWhenABoatGetsUnderWay) {
   EXPECT_EQ(events(swings + "a,610,0,0,0,0\nb,610,80,0,-3,0\n", "--rest 0.3"), begin) << "it was told before";
 }
 
+TEST_F(Harbour, TellsOfTwoAtRestThatMightHaveBeenOneBody) {
+  std::string text = "id,time,x,y,vx,vy\n";
+  for (int time = 0; time <= 60; time += 10) {
+    text += fmt::format("a,{},0,0,0,0\n", time);
+    if (time >= 20) text += fmt::format("b,{},2,0,0,0\n", time + 5);
+  }
+  const ProgramRun result = run("watch " + write("s.csv", text) +
+                                " --separation sphere:100 --acceleration 0.1 --position-error 2 "
+                                "--velocity-error 0.1 --look-ahead 0 --rest 0.3 --text --quiet");
+  EXPECT_EQ(result.out, "30  within     a and b: sphere:100, now 2 (0 to 7.75)\n") << result.err;
+}
+
 TEST_F(Harbour, RefusesAWrongSpeed) {
   write("s.csv", "id,time,x,y\na,0,0,0\n");
   for (const char* wrong : {"-1", "3m", "x"})
