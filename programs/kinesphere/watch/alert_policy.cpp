@@ -17,11 +17,16 @@ bool begins(const MonitorEvent& event, const Encounter& encounter) {
 
 }  // namespace
 
-AlertFate AlertPolicy::take(MonitorEvent& event, bool is_in_area) {
+AlertFate AlertPolicy::take(MonitorEvent& event, bool is_in_area, std::optional<AlertFate> held) {
   const Key key{event.first, event.second, event.level};
   const auto found = encounters_.find(key);
   Encounter encounter = found == encounters_.end() ? Encounter{} : found->second;
   AlertFate fate = fate_of(event, encounter);
+  encounter.is_held = encounter.is_held || held;
+  // Two at rest are told once.
+  const bool is_told_held = held == AlertFate::at_rest && begins(event, encounter) && !encounter.is_told();
+  if (fate == AlertFate::written && encounter.is_held && !is_told_held)
+    fate = held.value_or(AlertFate::encounter);
   if (fate == AlertFate::written && !is_in_area) fate = AlertFate::elsewhere;
   if (fate == AlertFate::written && !has_room(event.time)) fate = AlertFate::too_many;
   if (begins(event, encounter)) {
@@ -39,7 +44,8 @@ AlertFate AlertPolicy::take(MonitorEvent& event, bool is_in_area) {
     encounter.predicted = event.kind == MonitorEventKind::predicted;
   else if (event.verdict != Verdict::undecided)
     encounter.within = event.verdict == Verdict::within;
-  if (encounter.predicted || encounter.within) {
+  // The end of one that is held is still to be told.
+  if (encounter.predicted || encounter.within || (encounter.is_held && encounter.is_told())) {
     put(key, encounter);
   } else if (found != encounters_.end()) {
     erase(key);
@@ -67,26 +73,58 @@ AlertFate AlertPolicy::fate_of(const MonitorEvent& event, const Encounter& encou
   return is_new && (begin || encounter.is_told()) ? AlertFate::written : AlertFate::encounter;
 }
 
+/// Returns the event that tells of an encounter which begins for the reader now.
+MonitorEvent AlertPolicy::begin_of(const Key& key, Encounter& encounter, double time) const {
+  MonitorEvent event{.time = time, .first = key.first, .second = key.second, .level = key.level};
+  if (encounter.within && kinds_.within) {
+    event.verdict = Verdict::within;
+    event.since = encounter.within_since;
+    encounter.within_told = true;
+  } else {
+    event.kind = MonitorEventKind::predicted;
+    event.since = encounter.predicted_since;
+    encounter.predicted_told = true;
+  }
+  return event;
+}
+
 std::vector<MonitorEvent> AlertPolicy::enter_area(TrackId track, double time) {
   std::vector<MonitorEvent> events;
   for (const Key& key : encounters_of(track)) {
     Encounter& encounter = encounters_.at(key);
-    if (!encounter.is_elsewhere) continue;
+    if (!encounter.is_elsewhere || encounter.is_held) continue;
     if (!has_room(time)) break;
     encounter.is_elsewhere = false;
-    MonitorEvent event{.time = time, .first = key.first, .second = key.second, .level = key.level};
-    if (encounter.within && kinds_.within) {
-      event.verdict = Verdict::within;
-      event.since = encounter.within_since;
-      encounter.within_told = true;
-    } else {
-      event.kind = MonitorEventKind::predicted;
-      event.since = encounter.predicted_since;
-      encounter.predicted_told = true;
-    }
-    events.push_back(event);
+    events.push_back(begin_of(key, encounter, time));
   }
   return events;
+}
+
+std::optional<MonitorEvent> AlertPolicy::release(const Key& key, double time, bool is_in_area, bool held) {
+  Encounter& encounter = encounters_.at(key);
+  encounter.is_held = held;
+  const bool is_on = (encounter.within && kinds_.within) || (encounter.predicted && kinds_.predicted);
+  if (is_on) {
+    const bool is_news = encounter.within && kinds_.within ? !encounter.within_told : !encounter.is_told();
+    if (!is_news) return std::nullopt;
+    if (!is_in_area) encounter.is_elsewhere = true;
+    if (!is_in_area || !has_room(time)) return std::nullopt;
+    encounter.is_elsewhere = false;
+    return begin_of(key, encounter, time);
+  }
+  const Encounter over = encounter;
+  encounter.predicted_told = encounter.within_told = false;
+  if (!encounter.predicted && !encounter.within) erase(key);
+  if (!over.is_told() || !is_in_area || !has_room(time)) return std::nullopt;
+  MonitorEvent event{.time = time, .first = key.first, .second = key.second, .level = key.level};
+  if (over.within_told) {
+    event.before = Verdict::within;
+    event.since = over.within_since;
+  } else {
+    event.kind = MonitorEventKind::prediction_ended;
+    event.since = over.predicted_since;
+  }
+  return event;
 }
 
 void AlertPolicy::put(const Key& key, const Encounter& encounter) {
@@ -136,7 +174,8 @@ nlohmann::json AlertPolicy::save() const {
     if (encounter.loss) loss = {encounter.loss->closest_time, encounter.loss->closest_distance};
     encounters.push_back({key.first, key.second, key.level, encounter.predicted, encounter.within,
                           encounter.predicted_since, encounter.within_since, encounter.predicted_told,
-                          encounter.within_told, encounter.is_elsewhere, loss, encounter.silence_told});
+                          encounter.within_told, encounter.is_elsewhere, loss, encounter.silence_told,
+                          encounter.is_held});
   }
   return {{"encounters", encounters},
           {"second", second_},
@@ -151,6 +190,7 @@ void AlertPolicy::restore(const nlohmann::json& state) {
     if (const nlohmann::json& loss = saved.at(10); !loss.is_null()) encounter.loss = {loss.at(0), loss.at(1)};
     encounter.silence_told = saved.at(11);
     encounter.is_elsewhere = saved.at(9);
+    encounter.is_held = saved.at(12);
     put(key, encounter);
   }
   second_ = state.at("second");

@@ -23,10 +23,12 @@ enum class AlertFate {
   of_track,    ///< it is about a single track, which is not asked for
   other_kind,  ///< another kind that is not asked for
   encounter,   ///< another alert of the same encounter tells it
+  same_body,   ///< the two may be one body under two ids (SameBodies)
+  at_rest,     ///< both are at rest (RestRule), and have been told once
   elsewhere,   ///< neither track is in an area (--area)
   too_many,    ///< there were too many alerts in this second (--most-alerts)
 };
-inline constexpr std::size_t alert_fates = 7;
+inline constexpr std::size_t alert_fates = 9;
 
 /// Two tracks at one separation, from the event that they come within it until it is over: until they are no
 /// longer predicted to, and, if they certainly were within it, are certainly apart.
@@ -44,6 +46,7 @@ struct Encounter {
   std::optional<Loss> loss{};
   bool silence_told = false;  ///< an alert has told that one of the two became stale
   bool is_elsewhere = false;  ///< its begin is not told because neither track was in an area
+  bool is_held = false;       ///< nothing is told of it until release()
 };
 
 /// The policy. If changes of `undecided` are asked for, every event of a kind that is asked for is written.
@@ -63,12 +66,18 @@ class AlertPolicy {
   AlertPolicy(const AlertKinds& kinds, std::uint64_t most_alerts) : kinds_(kinds), most_(most_alerts) {}
 
   /// Takes the next event of a pair. `is_in_area`: one of its tracks is in an area, or there are no areas.
-  /// Where the event is written, `before` and `since` of a verdict are set to what alerts have told.
-  AlertFate take(MonitorEvent& event, bool is_in_area);
+  /// `held`: the fate of all events of the pair from now on, until release(); of two at rest, of all but the
+  /// first one. Where the event is written, `before` and `since` of a verdict are set to what alerts have
+  /// told.
+  AlertFate take(MonitorEvent& event, bool is_in_area, std::optional<AlertFate> held = std::nullopt);
+  /// Events of a pair are told again or, if it is `held` further, once. Returns the event that tells what has
+  /// changed for the reader meanwhile, if one is due. Precondition: there is this encounter, and it is held.
+  std::optional<MonitorEvent> release(const Key& key, double time, bool is_in_area, bool held = false);
   /// Returns the events that tell of encounters of a track which begin for the reader when the track enters
   /// an area. Cost: O(log(encounters) + encounters of the track).
   std::vector<MonitorEvent> enter_area(TrackId track, double time);
-  /// Returns the encounters of a track. Cost: O(log(encounters) + encounters of the track).
+  /// Returns the encounters of a track, and those that were over while they were held and told before. Cost:
+  /// O(log(encounters) + encounters of the track).
   std::vector<Key> encounters_of(TrackId track) const;
   /// Precondition: there is this encounter.
   Encounter& encounter(const Key& key) { return encounters_.at(key); }
@@ -90,6 +99,7 @@ class AlertPolicy {
 
  private:
   AlertFate fate_of(const MonitorEvent& event, const Encounter& encounter) const;
+  MonitorEvent begin_of(const Key& key, Encounter& encounter, double time) const;
   void put(const Key& key, const Encounter& encounter);
   void erase(const Key& key);
 

@@ -7,6 +7,7 @@
 
 #include "base/json_text.hpp"
 #include "watch/alert_text.hpp"
+#include "watch/pair_distance.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -24,7 +25,7 @@ std::string pair_alert_fields(const AlertContext& context, const MonitorEvent& e
   else if (answer)
     line += fmt::format(R"(, "verdict": "{}")", name_of(answer->verdict));
   line += fmt::format(R"(, "since": {})", json_time(context.times, event.since));
-  if (answer) line += ", " + answer_fields(context, answer.value());
+  if (answer) line += ", " + answer_fields(context, {first, second}, event.level, answer.value());
   const NamedTrack* const one = context.names.find(first);
   const NamedTrack* const other = context.names.find(second);
   if (one != nullptr && other != nullptr)
@@ -32,6 +33,11 @@ std::string pair_alert_fields(const AlertContext& context, const MonitorEvent& e
                         json_text(declarations_of(*one)), json_text(declarations_of(*other)),
                         json_text(context.settings.classes.promise(one->motion_class, other->motion_class)));
   return line;
+}
+
+/// Returns the field that names the track that goes on as one that has left; empty without one.
+std::string goes_on_field(const LeftFor& left_for) {
+  return left_for.later.empty() ? "" : fmt::format(R"(, "goes_on_as": {})", json_text(left_for.later));
 }
 
 }  // namespace
@@ -49,16 +55,25 @@ std::string json_time(const TimeScale& times, double time) {
   return times.is_number() ? text : fmt::format("\"{}\"", text);
 }
 
-std::string answer_fields(const AlertContext& context, const PairAnswer& answer) {
+std::string answer_fields(const AlertContext& context, const OrderedPair& pair, std::uint32_t level,
+                          const PairAnswer& answer) {
   const auto length = [](double value) {
     return std::isfinite(value) ? fmt::format("{:.6g}", value) : "null";
   };
-  std::string line = fmt::format(
-      R"("distance": [{}, {}], "until": {}, "closest_distance": {}, "closest_time": {}, "likely_time": {}, "ask": {}, "ask_by": {})",
-      length(answer.lower / context.stretch), length(answer.upper), json_time(context.times, answer.until),
-      length(answer.closest_distance), json_time(context.times, answer.closest_time),
-      json_time(context.times, answer.likely_time), json_text(context.names.text(answer.ask)),
-      json_time(context.times, answer.ask_by));
+  const PairDistance now =
+      distance_now(context.monitor, context.settings.separations[level].separation, pair.first, pair.second);
+  std::string line =
+      fmt::format(R"("distance": [{}, {}], "likely_distance": {}, )", length(answer.lower / context.stretch),
+                  length(answer.upper), length(now.likely));
+  line += now.vertical ? fmt::format(R"("vertical_distance": [{}, {}], "likely_vertical": {}, )",
+                                     length(now.vertical->lower), length(now.vertical->upper),
+                                     length(now.vertical->likely))
+                       : R"("vertical_distance": null, "likely_vertical": null, )";
+  line += fmt::format(
+      R"("until": {}, "closest_distance": {}, "closest_time": {}, "likely_time": {}, "ask": {}, "ask_by": {})",
+      json_time(context.times, answer.until), length(answer.closest_distance),
+      json_time(context.times, answer.closest_time), json_time(context.times, answer.likely_time),
+      json_text(context.names.text(answer.ask)), json_time(context.times, answer.ask_by));
   return line +
          fmt::format(
              R"(, "closest_horizontal": {}, "closest_vertical": {}, "relative_speed": {}, "avoidable_until": {}, "inevitable_by": {})",
@@ -81,20 +96,29 @@ std::string declarations_of(const NamedTrack& track) {
   return text;
 }
 
-std::string lost_line(const AlertContext& context, const MonitorEvent& event, const AlertPolicy::Key& key,
-                      const Encounter& encounter) {
-  if (context.settings.text) return lost_text(context, event, key, encounter);
+std::string lost_line(const AlertContext& context, const LostTrack& lost) {
+  if (context.settings.text) return lost_text(context, lost);
+  const auto& [time, track, key, encounter, left_for] = lost;
   const auto [first, second] = in_text_order(context.names, key.first, key.second);
   return fmt::format(
-      R"({{"event": "lost", "time": {}, "track": {}, "reason": "{}", "first": {}, "second": {}, )"
+      R"({{"event": "lost", "time": {}, "track": {}, "reason": "{}"{}, "first": {}, "second": {}, )"
       R"("separation": {}, "level": {}, "predicted": {}, "within": {}, "closest_distance": {:.6g}, )"
       R"("closest_time": {}}})"
       "\n",
-      json_time(context.times, event.time), json_text(context.names.text(event.first)),
-      event.kind == MonitorEventKind::stale ? "stale" : "dropped", json_text(context.names.text(first)),
-      json_text(context.names.text(second)), json_text(context.settings.separations[key.level].name),
-      key.level, encounter.predicted, encounter.within, encounter.loss->closest_distance,
+      json_time(context.times, time), json_text(context.names.text(track)), left_for.reason,
+      goes_on_field(left_for), json_text(context.names.text(first)), json_text(context.names.text(second)),
+      json_text(context.settings.separations[key.level].name), key.level, encounter.predicted,
+      encounter.within, encounter.loss->closest_distance,
       json_time(context.times, encounter.loss->closest_time));
+}
+
+std::string one_body_line(const AlertContext& context, double time, TrackId a, TrackId b) {
+  if (context.settings.text) return one_body_text(context, time, a, b);
+  const auto [first, second] = in_text_order(context.names, a, b);
+  return fmt::format(R"({{"event": "one_body", "time": {}, "first": {}, "second": {}}})"
+                     "\n",
+                     json_time(context.times, time), json_text(context.names.text(first)),
+                     json_text(context.names.text(second)));
 }
 
 std::string group_line(const AlertContext& context, double time, const std::string& name,
@@ -113,14 +137,15 @@ std::string refused_line(const AlertContext& context, const AlertPolicy::Refused
                      refused.alerts);
 }
 
-std::string alert_line(const AlertContext& context, const MonitorEvent& event, std::string_view left_for) {
+std::string alert_line(const AlertContext& context, const MonitorEvent& event, const LeftFor& left_for) {
   if (context.settings.text) return alert_text(context, event, left_for);
   std::string line = fmt::format(R"({{"event": "{}", "time": {}, )", name_of(event.kind),
                                  json_time(context.times, event.time));
   if (is_of_pair(event.kind)) return line + pair_alert_fields(context, event) + "}\n";
   line += fmt::format(R"("track": {})", json_text(context.names.text(event.first)));
   const NamedTrack* const track = context.names.find(event.first);
-  if (event.kind == MonitorEventKind::dropped) line += fmt::format(R"(, "reason": "{}")", left_for);
+  if (event.kind == MonitorEventKind::dropped)
+    line += fmt::format(R"(, "reason": "{}"{})", left_for.reason, goes_on_field(left_for));
   if (event.kind == MonitorEventKind::contradiction) {
     line += fmt::format(R"(, "position_excess": {}, "velocity_excess": {})",
                         json_number(event.position_excess), json_number(event.velocity_excess));

@@ -3,39 +3,24 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/ascii_text.hpp"
-#include "base/input_file.hpp"
 #include "base/program_error.hpp"
 #include "formats/tables/row_reader.hpp"
+#include "watch/id_rules.hpp"
 
 namespace kinesphere::program {
 namespace {
 
 using Ids = std::unordered_set<std::string>;
 
-std::string in_lower_case(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), lower_case);
-  return lower;
-}
-
-/// Returns the first field of each line, in lower case; blank lines and those that begin with # have none.
+/// Returns the first field of each line, in lower case.
 std::shared_ptr<const Ids> ids_in(const std::string& path) {
-  const std::string text = read_input(path);
   const auto ids = std::make_shared<Ids>();
-  for (std::string_view rest = text; !rest.empty();) {
-    std::string_view line = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
-    line = trimmed(line.substr(0, line.find_first_of(",;\t")));
-    if (line.size() > 1 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
-    if (!line.empty() && !line.starts_with('#')) ids->insert(in_lower_case(line));
-  }
-  if (ids->empty()) throw ProgramError(fmt::format("--class: expected ids in {}, but it has none", path));
+  for (const std::string& line : lines_of_list(path, "--class"))
+    ids->insert(in_lower_case(first_field(line)));
   return ids;
 }
 

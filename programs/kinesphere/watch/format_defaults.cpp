@@ -40,7 +40,9 @@ FormatDefaults of_vessels() {
           .silence = 210.0,
           .forget = 600.0,
           .window = 16.0,
-          .look_ahead = 60.0};
+          .look_ahead = 60.0,
+          .rest_speed = 0.5,
+          .has_steady_rate = false};
 }
 
 /// Sentences of AIS say whether a position is within 10 m or worse. 100 m (95 %) is what IMO MSC.112(73) asks

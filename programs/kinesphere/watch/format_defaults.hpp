@@ -20,7 +20,9 @@ struct FormatDefaults {
   double velocity_age = 0.0;
   double silence = 60.0, forget = 300.0;
   double window = 1.0;
-  double look_ahead = 10.0;  ///< of separations without a time
+  double look_ahead = 10.0;     ///< of separations without a time
+  double rest_speed = 0.0;      ///< a track that is no faster for a while is at rest; 0: none is
+  bool has_steady_rate = true;  ///< tracks report about as often whatever they do
 };
 /// docs/watch.md cites the sources of the values.
 FormatDefaults defaults_of(StreamFormat format);

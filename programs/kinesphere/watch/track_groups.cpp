@@ -33,10 +33,12 @@ TrackGroups::Outcome TrackGroups::take(TrackId track, const Vec3& position,
   Outcome outcome;
   const std::optional<Cell> cell = cell_of(position);
   const auto known = standing_.find(track);
-  Place* const place = cell && places_.contains(*cell) ? &places_.at(*cell) : nullptr;
   const bool was_here = known != standing_.end() && cell && known->second.cell == *cell;
-  const bool stands =
-      cell && (speed ? *speed <= cutting_.slow : was_here || place == nullptr || place->latest == position);
+  const auto is_latest = [&] {
+    const auto place = places_.find(*cell);
+    return place == places_.end() || place->second.latest == position;
+  };
+  const bool stands = cell && (speed ? *speed <= cutting_.slow : was_here || is_latest());
   if (known != standing_.end() && (!stands || !was_here)) outcome.dissolved = leave(track);
   if (!stands) return outcome;
   Place& here = places_[*cell];

@@ -12,12 +12,17 @@
 #include "formats/streams/source_report.hpp"
 #include "kinesphere/monitor/monitor_event.hpp"
 #include "number/id_index.hpp"
+#include "watch/rest.hpp"
+#include "watch/sighting.hpp"
 
 namespace kinesphere::program {
 
 /// Returns a number for an id, equal in every process. Two different ids have equal numbers once in 2^64
 /// pairs; TrackNames detects it.
 TrackId track_id_of(std::string_view text);
+
+/// NamedTrack::height_by of a track whose height may be any.
+inline constexpr std::string_view unknown_height = "unknown";
 
 /// State of a track that the monitor does not hold.
 struct NamedTrack {
@@ -33,6 +38,8 @@ struct NamedTrack {
   std::optional<FileTime> contradicted_rest{};
   /// Sources of the declared bounds of the latest report.
   std::string_view position_by, height_by, velocity_by, climb_by;
+  Sighting seen{};  ///< kept by SameBodies; without reports where it is not used, and of a group
+  Rest rest{};
 };
 
 class TrackNames {

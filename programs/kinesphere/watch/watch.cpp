@@ -62,6 +62,33 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->type_name("ID");
   command
       ->add_option(
+          "--same", options.same,
+          "Two ids of one body, once or several times: reports of B count as those of A; or a file with "
+          "A=B or A,B in each line")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all()
+      ->type_name("A=B|@FILE");
+  command
+      ->add_option(
+          "--ignore", options.ignored,
+          "Leave out the reports of this id, once or several times, or of a file with an id in each line")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all()
+      ->type_name("ID|@FILE");
+  command->add_flag("--distinct-ids", options.distinct_ids,
+                    "Each id is a body of its own: no track goes on under another id, and no two ids are one "
+                    "body. Always so with --only undecided");
+  command
+      ->add_option(
+          "--rest", options.rest,
+          "Two tracks that both have been no faster than this for three minutes, or since they were first "
+          "heard, are told once until one of them gets under way; 0.5 m/s of vessels when not given, of "
+          "others 0: no track is at rest")
+      ->type_name("SPEED");
+  command
+      ->add_option(
           "--only", options.only,
           "Write alerts of these kinds; within,predicted,lost when not given: at most three for each "
           "encounter. With undecided, each change of a verdict")
@@ -234,7 +261,14 @@ int watch(const WatchOptions& options) {
   }
   conclude();
   const WatchCounts& counts = watch.watcher().counts();
-  if (watch.watcher().monitor_counters().reports > 0) return exit_fine;
+  const std::uint64_t taken = watch.watcher().monitor_counters().reports;
+  if (counts.stale > taken && taken > 0 && watch.is_file())
+    throw ProgramError(fmt::format(
+        "{}: expected rows in the order of their times, but {} of {} reports are older than others "
+        "before them by more than --forget, and were not taken: sort them first; tracks reads "
+        "rows in any order",
+        watch.watcher().settings().source, counts.stale, counts.stale + taken));
+  if (taken > 0) return exit_fine;
   if (const std::string reasons = reasons_text(watch.watcher()); !reasons.empty())
     throw ProgramError(
         fmt::format("{}: expected reports of format {} that can be used, but there are none: {}{}",

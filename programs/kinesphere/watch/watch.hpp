@@ -19,6 +19,9 @@ struct WatchOptions {
   std::vector<std::string> separations;
   std::string look_ahead, confirm, hold;
   std::string own;
+  std::vector<std::string> same, ignored;
+  bool distinct_ids = false;
+  std::string rest;
   std::vector<std::string> only, areas;
   std::optional<std::uint64_t> most_alerts;
   std::optional<int> dimensions;

@@ -27,7 +27,7 @@ struct WatchCounts {
   std::uint64_t on_ground = 0;  ///< aircraft without a height, as they say that they are on the ground
   std::uint64_t no_bound = 0;
   std::uint64_t no_velocity = 0;  ///< neither it nor the largest speed is known
-  std::uint64_t filtered = 0;     ///< left out by --where
+  std::uint64_t filtered = 0;     ///< left out by --where or --ignore
   std::uint64_t superseded = 0;   ///< from before their track had its present class
   std::uint64_t crowded = 0;      ///< reports of new tracks at the limit of tracks or open pairs
   std::uint64_t malformed = 0;
@@ -41,6 +41,8 @@ struct WatchCounts {
   std::uint64_t behind = 0;               ///< reports taken that are seconds older than others before them
   std::uint64_t of_own = 0;               ///< reports taken of the own track (--own)
   std::uint64_t lost = 0;                 ///< alerts `lost`
+  std::uint64_t handovers = 0;            ///< tracks that have gone on under another id
+  std::uint64_t one_bodies = 0;           ///< alerts `one_body`
   std::uint64_t groups = 0;               ///< groups that have begun
   std::uint64_t grouped = 0;              ///< reports of members of groups that the monitor has not got
   std::array<std::uint64_t, 9> events{};  ///< indexed by MonitorEventKind

@@ -103,10 +103,11 @@ void find_measured_option(const WatchOptions& options, WatchSettings& settings) 
     settings.measured_text = text;
   };
   for (const NamedSeparation& named : settings.separations) take("--separation", named.name, named.has_unit);
-  for (const auto& [option, text] : {std::pair("--acceleration", options.acceleration),
-                                     std::pair("--largest-speed", options.largest_speed),
-                                     std::pair("--position-error", options.position_error),
-                                     std::pair("--velocity-error", options.velocity_error)}) {
+  for (const auto& [option, text] :
+       {std::pair("--acceleration", options.acceleration),
+        std::pair("--largest-speed", options.largest_speed),
+        std::pair("--position-error", options.position_error),
+        std::pair("--velocity-error", options.velocity_error), std::pair("--rest", options.rest)}) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string_view first = std::string_view(text).substr(0, colon),
                            second = std::string_view(text).substr(std::min(colon + 1, text.size()));
@@ -175,7 +176,8 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.forget = positive_time(options.forget, "--forget", defaults.forget);
   settings.hold = positive_time(options.hold, "--hold", 60.0);
   settings.confirm = positive_time(options.confirm, "--confirm", 0.0);
-  settings.own = options.own;
+  settings.ids = IdRules(options.same, options.ignored);
+  settings.own = settings.ids.body_of(options.own);
   if (!options.only.empty()) {
     const auto names = [&](std::string_view kind) {
       return std::any_of(options.only.begin(), options.only.end(),
@@ -187,6 +189,12 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
                       .undecided = names("undecided"),
                       .tracks = names("tracks")};
   }
+  settings.has_distinct_ids = options.distinct_ids;
+  settings.rest_speed =
+      options.rest.empty() ? defaults.rest_speed : parse_measure(options.rest, Measure::speed, "--rest");
+  if (settings.rest_speed < 0.0)
+    throw ProgramError(fmt::format("--rest: expected a speed >= 0, but got '{}'", options.rest));
+  settings.has_steady_rate = defaults.has_steady_rate;
   settings.text = options.text;
   for (const std::string& text : options.areas) settings.areas.push_back(parse_area(text));
   if (options.most_alerts) settings.most_alerts = *options.most_alerts;
@@ -243,6 +251,10 @@ GivenOptions given_options(const WatchOptions& options) {
        {"--confirm", options.confirm},
        {"--hold", options.hold},
        {"--own", options.own},
+       {"--same", fmt::format("{}", fmt::join(options.same, "\n"))},
+       {"--ignore", fmt::format("{}", fmt::join(options.ignored, "\n"))},
+       {"--distinct-ids", options.distinct_ids ? "true" : ""},
+       {"--rest", options.rest},
        {"--only", fmt::format("{}", fmt::join(options.only, ","))},
        {"--area", fmt::format("{}", fmt::join(options.areas, " "))},
        {"--text", options.text ? "yes" : ""},

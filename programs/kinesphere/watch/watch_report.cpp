@@ -39,7 +39,7 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"on_ground", "", "on the ground, without a height", counts.on_ground, true},
       {"no_bound", "", "of unknown accuracy", counts.no_bound, true},
       {"no_velocity", "", "without a velocity, where --largest-speed is not given", counts.no_velocity, true},
-      {"filtered", "", "left out by --where", counts.filtered, true},
+      {"filtered", "", "left out by --where or --ignore", counts.filtered, true},
       {"superseded", "", "from before their track had its present class", counts.superseded, true},
       {"crowded", "", "of new tracks when there was no room for more (--most-tracks, --most-pairs)",
        counts.crowded, true},
@@ -49,12 +49,17 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"alerts", "alerts", "", counts.alerts},
       {"groups", "", "groups of tracks that stand at one place", counts.groups},
       {"lost", "", "tracks lost in an encounter", counts.lost},
+      {"one_bodies", "", "pairs that are one body under two ids", counts.one_bodies},
       {"held_back", "", "events without an alert of their own:", counts.held_back()},
       {"held_back_undecided", "", "turned undecided, or apart again (--only undecided)",
        fates(AlertFate::undecided)},
       {"held_back_of_tracks", "", "of single tracks (--only tracks)", fates(AlertFate::of_track)},
       {"held_back_other_kinds", "", "of other kinds (--only)", fates(AlertFate::other_kind)},
       {"held_back_of_encounters", "", "of encounters that other alerts tell", fates(AlertFate::encounter)},
+      {"held_back_of_one_body", "", "of two that may be one body under two ids (--distinct-ids)",
+       fates(AlertFate::same_body)},
+      {"held_back_at_rest", "", "of two at rest that have been told once (--rest)",
+       fates(AlertFate::at_rest)},
       {"held_back_elsewhere", "", "outside of --area", fates(AlertFate::elsewhere)},
       {"held_back_as_too_many", "", "more than --most-alerts", fates(AlertFate::too_many)},
       {"verdicts", "events", "changes of what is certain", events(MonitorEventKind::verdict)},
@@ -66,6 +71,7 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"resumed", "", "resumed", events(MonitorEventKind::resumed)},
       {"reclassified", "", "changed their class", events(MonitorEventKind::reclassified)},
       {"dropped", "", "were dropped", events(MonitorEventKind::dropped)},
+      {"handovers", "", "of them as another id goes on", counts.handovers},
       {"dropped_in_crowds", "", "of them as more pairs were open than --most-pairs", counts.dropped},
   };
 }
@@ -169,7 +175,7 @@ std::string state_of_pair(const AlertContext& context, const Pair& pair) {
       R"({{"first": {}, "second": {}, "separation": {}, "level": {}, "verdict": "{}", "since": {}, {}}})",
       json_text(context.names.text(first)), json_text(context.names.text(second)),
       json_text(context.settings.separations[pair.level].name), pair.level, name_of(answer.verdict),
-      json_time(context.times, pair.since), answer_fields(context, answer));
+      json_time(context.times, pair.since), answer_fields(context, {first, second}, pair.level, answer));
 }
 
 std::string state_of_need(const AlertContext& context, const ReportRequest& need) {

@@ -191,11 +191,24 @@ WatchRun::WatchRun(const WatchOptions& options)
       !options.quiet)
     print_message("kinesphere: {} is read as a whole: alerts come once it has ended\n", source_->name());
   if (begun_from_) go_on_from(*begun_from_);
+  put_in_order();
   if (options.serve) server_ = std::make_unique<StateServer>(watcher_, *options.serve);
   alerts_ = open_alerts();
   begun_from_.reset();
   if (server_)
     print_message("kinesphere: the map is at {} (beside it: state.json, metrics)\n", server_->address());
+}
+
+/// Puts the reports of a file in order that is read from its begin, in times of its own. Only reports that
+/// have no times of arrival can be in another order.
+void WatchRun::put_in_order() {
+  const bool may_be_grouped = format_ == StreamFormat::csv || format_ == StreamFormat::ais ||
+                              format_ == StreamFormat::json || format_ == StreamFormat::jsonl;
+  const bool has_own_times = watcher_.settings().clock != WatchSettings::Clock::machine;
+  if (!may_be_grouped || !has_own_times || watcher_.monitor() || !is_file()) return;
+  auto ordered = make_ordered_format(std::move(reader_), source_->name());
+  ordered_ = ordered.get();
+  reader_ = std::move(ordered);
 }
 
 void WatchRun::go_on_from(const WatchSnapshot& snapshot) {
@@ -267,8 +280,11 @@ void WatchRun::run() {
   }
   warn_of_own();
   if (has_ended) {
+    warn();
     warn_of_disorder();
     warn_of_one_track();
+    warn_of_one_moment();
+    warn_of_undecided_bodies();
   }
   alerts_->flush(source_->position(cutter_.waiting().size()));
 }
@@ -462,6 +478,28 @@ void WatchRun::warn_of_one_track() {
                   source_->name());
 }
 
+/// Warns of a file that has one report of each track.
+void WatchRun::warn_of_one_moment() {
+  const std::uint64_t reports = watcher_.monitor_counters().reports;
+  const bool is_one = source_->nature() == ReportSource::Nature::recording && reports > 1 &&
+                      reports == watcher_.names().size() && watcher_.counts().groups == 0;
+  if (is_one && !options_.quiet)
+    print_message(
+        "kinesphere: warning: {}: it has one report of each track, as of one moment: alerts tell who is near "
+        "then, and what is predicted from there\n",
+        source_->name());
+}
+
+/// Warns of pairs that are not told as the stream has ended too early.
+void WatchRun::warn_of_undecided_bodies() {
+  const std::size_t pairs = watcher_.undecided_bodies();
+  if (pairs > 0 && !options_.quiet)
+    print_message(
+        "kinesphere: warning: {}: {} tracks that have just begun may be others under another id, and are not "
+        "told as near to these: it ends before reports show it (--distinct-ids tells all)\n",
+        source_->name(), pairs);
+}
+
 /// Warns if the own track is none of the stream's so far.
 void WatchRun::warn_of_own() {
   if (options_.own.empty() || watcher_.counts().of_own > 0) return;
@@ -479,14 +517,17 @@ bool WatchRun::is_time_for_snapshot() const {
 void WatchRun::keep_snapshot() {
   last_snapshot_ = std::chrono::steady_clock::now();
   if (options_.snapshot.empty() || !known_format_) return;
-  WatchSnapshot snapshot{.options = given_options(options_),
-                         .format = std::string(name_of(format_)),
-                         .place = source_->place(cutter_.waiting().size()),
-                         .line = cutter_.line(),
-                         .reader = reader_->save(),
-                         .watcher = watcher_.save(),
-                         .alerts = alerts_name(options_),
-                         .alerts_place = alerts_->sync()};
+  // A later run reads again what is kept back.
+  const bool is_at_begin = ordered_ != nullptr && ordered_->keeps_all();
+  WatchSnapshot snapshot{
+      .options = given_options(options_),
+      .format = std::string(name_of(format_)),
+      .place = source_->place(is_at_begin ? source_->position(0) : cutter_.waiting().size()),
+      .line = is_at_begin ? RecordCutter::Line{} : cutter_.line(),
+      .reader = reader_->save(),
+      .watcher = watcher_.save(),
+      .alerts = alerts_name(options_),
+      .alerts_place = alerts_->sync()};
   write_snapshot(options_.snapshot, std::move(snapshot));
   last_snapshot_ = std::chrono::steady_clock::now();
 }

@@ -9,6 +9,7 @@
 
 #include "formats/tables/record_cutter.hpp"
 #include "watch/alert_output.hpp"
+#include "watch/ordered_format.hpp"
 #include "watch/report_source.hpp"
 #include "watch/state_server.hpp"
 #include "watch/stop_signals.hpp"
@@ -29,6 +30,8 @@ class WatchRun {
   void close() { server_.reset(); }
 
   const Watcher& watcher() const { return watcher_; }
+  /// True if the stream is a file, which can be read again.
+  bool is_file() const { return source_->nature() == ReportSource::Nature::recording; }
   /// Returns "unknown" before any text has arrived.
   std::string_view format_name() const;
 
@@ -52,6 +55,9 @@ class WatchRun {
   void warn_of_own();
   void warn_of_disorder();
   void warn_of_one_track();
+  void warn_of_one_moment();
+  void warn_of_undecided_bodies();
+  void put_in_order();
   void warn_once(bool& has_warned, std::string_view warning);
   bool is_time_for_snapshot() const;
   void keep_snapshot();
@@ -65,6 +71,7 @@ class WatchRun {
   StreamFormat format_;
   Watcher watcher_;
   std::unique_ptr<ReportFormat> reader_;
+  OrderedFormat* ordered_ = nullptr;  ///< the reader of a file that may have to be sorted; else null
   std::unique_ptr<StateServer> server_;
   std::size_t complaints_ = 0;
   bool has_warned_of_crowds_ = false, has_warned_of_unusable_ = false, has_warned_of_heights_ = false;

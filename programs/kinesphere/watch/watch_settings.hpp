@@ -9,6 +9,7 @@
 
 #include "formats/fields/separations.hpp"
 #include "kinesphere/monitor/monitor.hpp"
+#include "watch/id_rules.hpp"
 #include "watch/track_classes.hpp"
 
 namespace kinesphere::program {
@@ -37,7 +38,11 @@ struct WatchedArea {
 struct WatchSettings {
   std::vector<NamedSeparation> separations;
   std::string own;  ///< id of the track whose pairs are watched; empty: all pairs are
+  IdRules ids;
   AlertKinds kinds;
+  bool has_distinct_ids = false;   ///< each id is a body of its own
+  bool has_steady_rate = true;     ///< SameBodies::Limits
+  double rest_speed = 0.0;         ///< RestRule::speed
   bool text = false;               ///< alerts are lines of text
   std::vector<WatchedArea> areas;  ///< alerts are about pairs with a track in one of them; empty: all are
   std::uint64_t most_alerts = std::numeric_limits<std::uint64_t>::max();  ///< alerts in a second

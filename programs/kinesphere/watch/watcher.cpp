@@ -31,6 +31,14 @@ Watcher::Watcher(WatchSettings settings, AlertFn alert)
 }
 
 void Watcher::take(const SourceReport& report) {
+  if (settings_.ids.is_empty()) return take_of_body(report);
+  if (settings_.ids.ignores(report.id)) return pass_over(Passed::filtered);
+  SourceReport of_body = report;
+  of_body.id = settings_.ids.body_of(report.id);
+  take_of_body(of_body);
+}
+
+void Watcher::take_of_body(const SourceReport& report) {
   if (!clock_is_chosen_) {
     clock_is_chosen_ = true;
     clock_.set_source(report.arrival ? StreamClock::Source::arrivals : StreamClock::Source::stamps);
@@ -171,9 +179,12 @@ void Watcher::go_on(const FileTime& time) {
   clock_.interrupt();
   clock_.go_on(time);
   if (!monitor_) return;
-  advance(std::max(monitor_->time(), times_.seconds(clock_.now())));
+  const double now = std::max(monitor_->time(), times_.seconds(clock_.now()));
+  give_up_until(now);
+  advance(now);
   if (monitor_->time() < next_forgetting_) return;
   next_forgetting_ = monitor_->time() + settings_.forget;
+  if (bodies_) bodies_->forget_before(monitor_->time() - settings_.forget);
   for (const TrackGroups::Cell& group : groups_->forget_before(monitor_->time() - settings_.forget))
     end_group(group);
 }
@@ -195,14 +206,14 @@ bool Watcher::has_room() const {
 void Watcher::drop_crowd() {
   if (monitor_->open_pair_count() <= settings_.most_pairs) return;
   for (const TrackId id : monitor_->crowd(settings_.most_pairs / 2)) {
-    remove(id, "crowd");
+    remove(id, {"crowd"});
     ++counts_.dropped;
   }
 }
 
-void Watcher::remove(TrackId track, std::string_view reason) {
+void Watcher::remove(TrackId track, const LeftFor& left_for) {
   require(monitor_->remove(track));
-  removed_.insert_or_assign(track, reason);
+  removed_.insert_or_assign(track, left_for);
 }
 
 }  // namespace kinesphere::program

@@ -15,6 +15,7 @@
 #include "watch/alert_policy.hpp"
 #include "watch/alerts.hpp"
 #include "watch/local_frame.hpp"
+#include "watch/same_bodies.hpp"
 #include "watch/stream_clock.hpp"
 #include "watch/track_groups.hpp"
 #include "watch/track_names.hpp"
@@ -63,6 +64,9 @@ class Watcher final : public ReportSink {
   std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
   /// True if a report had a height that does not count, since the first report had none.
   bool ignores_heights() const { return ignores_heights_; }
+  /// Returns the number of pairs of which nothing is told because reports have not shown yet whether they are
+  /// one body.
+  std::size_t undecided_bodies() const;
   /// Empty before the first report has been taken.
   const std::optional<Monitor>& monitor() const { return monitor_; }
   const std::optional<LocalFrame>& frame() const { return frame_; }
@@ -85,6 +89,8 @@ class Watcher final : public ReportSink {
     return clock_.source() == StreamClock::Source::arrivals && report.arrival ? *report.arrival
                                                                               : report.stamp;
   }
+  /// Takes a report whose id is that of its body (IdRules).
+  void take_of_body(const SourceReport& report);
   void hold(const SourceReport& report);
   void drop_held();
   void deliver_held();
@@ -93,6 +99,12 @@ class Watcher final : public ReportSink {
   /// Moves time on, and emits alerts that are certain by then.
   void go_on(const FileTime& time);
   void deliver(const SourceReport& report);
+  static bool knows_velocity(const SourceReport& report);
+  bool lacks_height(const SourceReport& report) const { return dimensions_ == 3 && !report.has_height; }
+  void refuse_without_velocity();
+  bool is_usable(const SourceReport& report, const NamedTrack* known, const NamedTrack& track);
+  void remember(TrackId id, const SourceReport& report, NamedTrack& named, const NamedTrack& track,
+                const TrackReport& on_map, bool is_first);
   void begin_monitor(const SourceReport& report);
   void begin_map(const WatchSettings::Origin& origin);
   /// `track` has the class of the report.
@@ -106,13 +118,27 @@ class Watcher final : public ReportSink {
   void write_refused(double time);
   void report_lost(const MonitorEvent& event);
   void enter_area(TrackId track);
+  bool is_in_area(const AlertPolicy::Key& pair) const;
+  std::optional<AlertFate> hold_of(const MonitorEvent& event) const;
+  std::optional<AlertFate> hold_of(TrackId first, TrackId second) const;
+  void begin_bodies();
+  void compare_bodies(TrackId track, Sighting& seen, const TrackReport& report, bool is_first);
+  void note_rest(TrackId id, NamedTrack& track, const SourceReport& report, const TrackReport& on_map,
+                 bool is_first);
+  void release_from(TrackId later);
+  void release(TrackId track);
+  void release_due();
+  void report_one_body(const SameBodies::Change::Pair& pair);
+  void give_up_until(double time);
+  void hand_over(const SameBodies::GivenUp& given_up);
+  void leave(TrackId track);
   TrackGroups::Cutting cutting() const;
   bool watch_as_group(const SourceReport& report, TrackId id, const TrackReport& on_map,
                       const NamedTrack& track);
   void begin_group(const TrackGroups::Outcome& outcome);
   void end_group(const TrackGroups::Cell& group);
   std::string group_name(const TrackGroups::Cell& group) const;
-  void remove(TrackId track, std::string_view reason);
+  void remove(TrackId track, const LeftFor& left_for);
   const MotionLimits& limits_of(const NamedTrack& track) const {
     return settings_.classes[track.motion_class].limits;
   }
@@ -147,8 +173,11 @@ class Watcher final : public ReportSink {
   bool is_geographic_ = false;
   int dimensions_ = 3;
   TrackNames names_;
+  RestRule rest_;
+  std::vector<TrackId> to_release_;  ///< tracks of which pairs are held no more, during a report
   /// Why tracks were removed whose alerts are still to come.
-  std::map<TrackId, std::string_view> removed_;
+  std::map<TrackId, LeftFor> removed_;
+  std::optional<SameBodies> bodies_;   ///< from the first report on, unless each id counts as a body
   std::optional<TrackGroups> groups_;  ///< from the first report on
   double next_forgetting_ = 0.0;       ///< time at which the stale members of groups are forgotten
   std::map<TrackId, TrackGroups::Cell> group_tracks_;  ///< the tracks that stand for groups

@@ -22,18 +22,25 @@ void Watcher::report(const MonitorEvent& event) {
       policy_.encounter(key).loss.reset();
   if (event.kind == MonitorEventKind::reclassified) policy_.forget(event.first);
   if (event.kind != MonitorEventKind::dropped) return;
-  policy_.forget(event.first);
-  names_.remove(event.first);
-  removed_.erase(event.first);
-  if (const auto group = group_tracks_.find(event.first); group != group_tracks_.end()) {
+  leave(event.first);
+}
+
+/// Forgets a track that the monitor has dropped.
+void Watcher::leave(TrackId track) {
+  policy_.forget(track);
+  const TrackId parted = bodies_ ? bodies_->remove(track) : 0;
+  names_.remove(track);
+  removed_.erase(track);
+  if (const auto group = group_tracks_.find(track); group != group_tracks_.end()) {
     groups_->dissolve(group->second);
     group_tracks_.erase(group);
   }
+  if (parted != 0) release_from(parted);
 }
 
 AlertFate Watcher::fate_of(MonitorEvent& event) {
   if (is_of_pair(event.kind))
-    return policy_.take(event, areas_.empty() || is_in_area(event.first) || is_in_area(event.second));
+    return policy_.take(event, is_in_area({event.first, event.second, event.level}), hold_of(event));
   const bool is_asked_for =
       settings_.kinds.tracks && (settings_.own.empty() || track_id_of(settings_.own) == event.first);
   if (!is_asked_for) return AlertFate::of_track;
@@ -70,12 +77,17 @@ bool Watcher::is_in_area(TrackId track) const {
   return std::any_of(areas_.begin(), areas_.end(), contains);
 }
 
+/// True if one of the two is in an area, or there are no areas.
+bool Watcher::is_in_area(const AlertPolicy::Key& pair) const {
+  return areas_.empty() || is_in_area(pair.first) || is_in_area(pair.second);
+}
+
 /// Tells of the encounters of a track that has entered an area.
 void Watcher::enter_area(TrackId track) {
   if (areas_.empty() || !is_in_area(track)) return;
   for (const MonitorEvent& event : policy_.enter_area(track, monitor_->time())) {
     ++counts_.alerts;
-    write(event.first, alert_line(context(), event, ""));
+    write(event.first, alert_line(context(), event, {}));
   }
 }
 
@@ -87,12 +99,14 @@ void Watcher::report_lost(const MonitorEvent& event) {
       const PairAnswer answer = require(monitor_->answer(key.first, key.second, key.level));
       encounter.loss = Encounter::Loss{answer.closest_time, answer.closest_distance};
     }
-    if (!settings_.kinds.lost || !encounter.loss || !encounter.is_told()) continue;
+    const bool is_on = encounter.predicted || encounter.within;
+    if (!settings_.kinds.lost || !encounter.loss || !encounter.is_told() || !is_on) continue;
     // Streams that lose a report now and then tell of it once.
     if (event.kind == MonitorEventKind::stale && std::exchange(encounter.silence_told, true)) continue;
     ++counts_.alerts;
     ++counts_.lost;
-    write(key.first, lost_line(context(), event, key, encounter));
+    const std::string_view reason = event.kind == MonitorEventKind::stale ? "stale" : "dropped";
+    write(key.first, lost_line(context(), {event.time, event.first, key, encounter, {reason}}));
   }
 }
 
@@ -119,11 +133,13 @@ void Watcher::count_and_report(MonitorEvent event) {
   if (fate != AlertFate::written) return;
   ++counts_.alerts;
   const auto removed = removed_.find(event.first);
-  write(event.first, alert_line(context(), event, removed == removed_.end() ? "silence" : removed->second));
+  write(event.first,
+        alert_line(context(), event, removed == removed_.end() ? LeftFor{"silence"} : removed->second));
 }
 
 AlertContext Watcher::context() const {
-  return {settings_, times_, names_, *monitor_, frame_ ? frame_->stretch() : 1.0, is_geographic_};
+  return {settings_,      times_,     names_, *monitor_, frame_ ? frame_->stretch() : 1.0,
+          is_geographic_, first_time_};
 }
 
 std::string Watcher::first_time() const {

@@ -45,7 +45,7 @@ bool Watcher::watch_as_group(const SourceReport& report, TrackId id, const Track
   if (!outcome.group) return false;
   if (outcome.is_new) begin_group(outcome);
   for (const TrackId member : outcome.joined)
-    if (monitor_->contains(member)) remove(member, "group");
+    if (monitor_->contains(member)) remove(member, {"group"});
   if (!groups_->is_due(*outcome.group, on_map.timestamp, 0.5 * settings_.window)) {
     ++counts_.grouped;
     return true;
@@ -70,6 +70,7 @@ bool Watcher::watch_as_group(const SourceReport& report, TrackId id, const Track
   named.text = name;
   named.stamp = report.stamp;
   named.position = report.position;
+  named.rest.is_at_rest = rest_.speed > 0.0;
   return true;
 }
 
@@ -85,7 +86,7 @@ void Watcher::begin_group(const TrackGroups::Outcome& outcome) {
 void Watcher::end_group(const TrackGroups::Cell& group) {
   const TrackId id = track_id_of(group_name(group));
   group_tracks_.erase(id);
-  if (monitor_->contains(id)) remove(id, "dissolved");
+  if (monitor_->contains(id)) remove(id, {"dissolved"});
 }
 
 }  // namespace kinesphere::program

@@ -91,63 +91,25 @@ void Watcher::begin_monitor(const SourceReport& report) {
     }
   monitor_.emplace(require(Monitor::create(definition)));
   begin_areas();
+  begin_bodies();
   groups_.emplace(cutting());
 }
 
 void Watcher::deliver(const SourceReport& report) {
   const double age = seconds_between(report.stamp, clock_.now());
-  if (age > settings_.forget) {
-    ++counts_.stale;
+  if (age > settings_.forget || -age > settings_.leap) {
+    ++(age > 0.0 ? counts_.stale : counts_.ahead);
     return;
   }
-  if (-age > settings_.leap) {
-    ++counts_.ahead;
-    return;
-  }
-  const bool knows_velocity =
-      report.velocity && !(report.velocity_error && !std::isfinite(report.velocity_error->bound));
   if (!monitor_ && settings_.has_automatic_classes) settings_.classes.begin(report.sayable);
   const TrackId id = track_id_of(report.id);
   NamedTrack* const known = names_.find(id);
   NamedTrack track;
   track.motion_class = settings_.classes.choose(report, known);
-  if (!knows_velocity && !std::isfinite(limits_of(track).largest_speed.total())) {
-    if (!monitor_ || monitor_->counters().reports == 0)
-      throw ProgramError(
-          fmt::format("--largest-speed: expected it, because {} has positions without velocities: an "
-                      "acceleration alone does not "
-                      "say how far a track goes",
-                      settings_.source));
-    ++counts_.no_velocity;
-    return;
-  }
+  if (!knows_velocity(report) && !std::isfinite(limits_of(track).largest_speed.total()))
+    return refuse_without_velocity();
   if (!monitor_) begin_monitor(report);
-  if (report.geographic != is_geographic_)
-    return refuse(fmt::format("expected the position of {} in the same words as the first: {}", report.id,
-                              is_geographic_ ? "latitude and longitude" : "x and y"));
-  ignores_heights_ = ignores_heights_ || (dimensions_ == 2 && !settings_.dimensions && report.has_height);
-  const bool lacks_height = dimensions_ == 3 && !report.has_height;
-  if (lacks_height && report.on_ground) {
-    ++counts_.on_ground;
-    return;
-  }
-  if (known != nullptr) {
-    if (known->text != report.id)
-      return refuse(fmt::format("the ids {} and {} cannot be told apart", known->text, report.id));
-    if (known->position == report.position &&
-        std::abs(seconds_between(known->stamp, report.stamp)) <= report.same_within) {
-      ++counts_.repeated;
-      return;
-    }
-    if (is_superseded(report, *known, track.motion_class)) {
-      ++counts_.superseded;
-      return;
-    }
-  }
-  if (known == nullptr && !has_room()) {
-    ++counts_.crowded;
-    return;
-  }
+  if (!is_usable(report, known, track)) return;
   const auto on_map = this->on_map(report, track);
   if (!on_map) {
     ++counts_.outside;
@@ -157,26 +119,73 @@ void Watcher::deliver(const SourceReport& report) {
   if (const auto taken = monitor_->report(id, *on_map); !taken)
     return refuse(fmt::format("{}: {}", report.id, message_of(taken.error())));
   if (!settings_.own.empty() && report.id == settings_.own) ++counts_.of_own;
-  if (lacks_height) ++counts_.no_height;
-  if (knows_velocity) ++counts_.with_velocity;
+  if (lacks_height(report)) ++counts_.no_height;
+  if (knows_velocity(report)) ++counts_.with_velocity;
   // Times of arrival tell that reports are late, and not in disorder.
   constexpr double seconds_of_disorder = 5.0;
   if (age > seconds_of_disorder && clock_.source() == StreamClock::Source::stamps) ++counts_.behind;
-  NamedTrack& named = known != nullptr ? *known : names_.add(id, report.id);
+  remember(id, report, known != nullptr ? *known : names_.add(id, report.id), track, *on_map,
+           known == nullptr);
+}
+
+bool Watcher::knows_velocity(const SourceReport& report) {
+  return report.velocity && !(report.velocity_error && !std::isfinite(report.velocity_error->bound));
+}
+
+void Watcher::refuse_without_velocity() {
+  if (!monitor_ || monitor_->counters().reports == 0)
+    throw ProgramError(
+        fmt::format("--largest-speed: expected it, because {} has positions without velocities: an "
+                    "acceleration alone does not say how far a track goes",
+                    settings_.source));
+  ++counts_.no_velocity;
+}
+
+/// Returns false, and counts the report, if it cannot be used. `known`: its track; null for a new one.
+/// `track` has the class of the report.
+bool Watcher::is_usable(const SourceReport& report, const NamedTrack* known, const NamedTrack& track) {
+  const auto no = [](std::uint64_t& count) {
+    ++count;
+    return false;
+  };
+  if (report.geographic != is_geographic_) {
+    refuse(fmt::format("expected the position of {} in the same words as the first: {}", report.id,
+                       is_geographic_ ? "latitude and longitude" : "x and y"));
+    return false;
+  }
+  ignores_heights_ = ignores_heights_ || (dimensions_ == 2 && !settings_.dimensions && report.has_height);
+  if (lacks_height(report) && report.on_ground) return no(counts_.on_ground);
+  if (known == nullptr) return has_room() || no(counts_.crowded);
+  if (known->text != report.id) {
+    refuse(fmt::format("the ids {} and {} cannot be told apart", known->text, report.id));
+    return false;
+  }
+  const bool is_repeated = known->position == report.position &&
+                           std::abs(seconds_between(known->stamp, report.stamp)) <= report.same_within;
+  if (is_repeated) return no(counts_.repeated);
+  return !is_superseded(report, *known, track.motion_class) || no(counts_.superseded);
+}
+
+/// Remembers a report that the monitor has taken. `track` has the class and the declarations of the report.
+void Watcher::remember(TrackId id, const SourceReport& report, NamedTrack& named, const NamedTrack& track,
+                       const TrackReport& on_map, bool is_first) {
   if (const std::string_view name = shown_name(report.name); !name.empty()) named.name = name;
-  if (known == nullptr || seconds_between(named.stamp, report.stamp) >= 0.0) {
+  if (is_first || seconds_between(named.stamp, report.stamp) >= 0.0) {
     named.stamp = report.stamp;
     named.position = report.position;
     named.extent = report.extent;
-    if (known != nullptr && named.motion_class != track.motion_class) named.class_since = report.stamp;
+    if (!is_first && named.motion_class != track.motion_class) named.class_since = report.stamp;
     named.motion_class = track.motion_class;
     if (settings_.classes.contradicts_rest(report)) named.contradicted_rest = report.stamp;
     named.position_by = track.position_by;
     named.height_by = track.height_by;
     named.velocity_by = track.velocity_by;
     named.climb_by = track.climb_by;
+    note_rest(id, named, report, on_map, is_first);
   }
+  compare_bodies(id, named.seen, on_map, is_first);
   enter_area(id);
+  release_due();
 }
 
 bool Watcher::is_superseded(const SourceReport& report, const NamedTrack& known, std::size_t motion_class) {
@@ -230,7 +239,7 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
   auto upright = said(report.height_error, settings_.height_error, track.height_by);
   if (dimensions_ == 3 && !report.has_height) {
     upright = frame_ ? LocalFrame::largest_height : any_height;
-    track.height_by = "unknown";
+    track.height_by = unknown_height;
   }
   result.position_error = frame_
                               ? ErrorBound::cylinder(frame_->position_error(*flat), upright.value_or(*flat))

@@ -1,6 +1,8 @@
 // Saves the state of a watch as JSON, and restores it.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -40,8 +42,37 @@ std::string_view kept(const std::string& text) {
   return *texts.insert(text).first;
 }
 
+/// An infinite number is null.
+Json saved(double number) { return std::isfinite(number) ? Json(number) : Json(); }
+double infinite_if_null(const Json& number) {
+  return number.is_null() ? std::numeric_limits<double>::infinity() : number.get<double>();
+}
+
 }  // namespace
 
+inline void to_json(Json& to, const Sighting& seen) {
+  const auto& [state, stamp, velocity_error, first, interval, reports, place, link, later] = seen;
+  to = {state.position,
+        state.velocity,
+        stamp,
+        saved(velocity_error),
+        first,
+        interval,
+        reports,
+        later,
+        {link.former, link.may_go_on, link.is_told, link.alike, link.former_alike, saved(link.due)}};
+}
+inline void from_json(const Json& from, Sighting& seen) {
+  seen.state = {from.at(0), from.at(1)};
+  seen.stamp = from.at(2);
+  seen.velocity_error = infinite_if_null(from.at(3));
+  seen.first = from.at(4);
+  seen.interval = from.at(5);
+  seen.reports = from.at(6);
+  seen.later = from.at(7);
+  const Json& link = from.at(8);
+  seen.link = {link.at(0), link.at(1), link.at(2), link.at(3), link.at(4), infinite_if_null(link.at(5))};
+}
 inline void to_json(Json& to, const DeclaredError& error) { to = {error.bound, error.declaration}; }
 inline void from_json(const Json& from, DeclaredError& error) { error = {from.at(0), kept(from.at(1))}; }
 
@@ -60,15 +91,27 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts::Turns, apart, undecided, within)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside, no_position, on_ground,
                                    no_bound, no_velocity, filtered, superseded, crowded, malformed,
                                    first_malformed, no_height, dropped, alerts, with_velocity, behind, of_own,
-                                   lost, groups, grouped, events, fates, turns)
+                                   lost, handovers, one_bodies, groups, grouped, events, fates, turns)
 
 namespace {
 
 Json saved(const NamedTrack& track) {
   const auto& [text, name, stamp, position, extent, motion_class, class_since, contradicted_rest, position_by,
-               height_by, velocity_by, climb_by] = track;
-  return {text,     stamp,  position,     position_by, height_by,         velocity_by,
-          climb_by, extent, motion_class, class_since, contradicted_rest, name};
+               height_by, velocity_by, climb_by, seen, rest] = track;
+  return {text,
+          stamp,
+          position,
+          position_by,
+          height_by,
+          velocity_by,
+          climb_by,
+          extent,
+          motion_class,
+          class_since,
+          contradicted_rest,
+          name,
+          seen,
+          {rest.is_at_rest, saved(rest.slow_since), rest.place}};
 }
 
 /// Arrays of tracks are packed into CBOR: as JSON in memory they would take ten times as much.
@@ -110,11 +153,13 @@ Json Watcher::save() const {
              {"classes", settings_.classes.save()},
              {"policy", policy_.save()},
              {"groups", nullptr},
+             {"bodies", nullptr},
              {"next_forgetting", next_forgetting_}};
   for (const HeldReport& held : held_) state["held"].push_back({held.id, held.name, held.report});
   if (monitor_) {
     state["monitor"] = saved(*monitor_);
     state["groups"] = {groups_->save(), group_tracks_};
+    if (bodies_) state["bodies"] = bodies_->save();
   }
   state["tracks"] = saved(names_);
   if (frame_) state["map"] = {frame_->latitude(), frame_->longitude()};
@@ -147,6 +192,9 @@ void Watcher::restore(const Json& state) {
       if (track.motion_class >= settings_.classes.size())
         throw ProgramError("expected a class of each track in the snapshot");
       track.name = saved.at(11);
+      track.seen = saved.at(12);
+      const Json& rest = saved.at(13);
+      track.rest = {rest.at(0), infinite_if_null(rest.at(1)), rest.at(2)};
     }
   }
   counts_ = state.at("counts");
@@ -157,6 +205,8 @@ void Watcher::restore(const Json& state) {
     if (!restored) throw ProgramError(message_of(restored.error()));
     monitor_.emplace(std::move(*restored));
     begin_areas();
+    begin_bodies();
+    if (bodies_) bodies_->restore(state.at("bodies"));
     groups_.emplace(cutting());
     groups_->restore(state.at("groups").at(0));
     state.at("groups").at(1).get_to(group_tracks_);

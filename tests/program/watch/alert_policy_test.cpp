@@ -222,7 +222,8 @@ TEST_F(WatchPolicy, ACapSaysWhatItHoldsBack) {
   std::vector<std::string> ids;
   for (int k = 0; k < 15; ++k) ids.push_back(fmt::format("t{:02}", k));
   for (const std::string& id : ids)
-    paths.push_back({id.c_str(), 2.0 * static_cast<double>(paths.size()), 0, 3, 0});
+    // So far from each other that no two may be one body.
+    paths.push_back({id.c_str(), 3.0 * static_cast<double>(paths.size()), 0, 3, 0});
   const auto lines = alerts(reports(paths, 5), "--separation sphere:50 --most-alerts 10 --only within");
   ASSERT_EQ(lines.size(), 11u);
   EXPECT_EQ(lines[10]["event"], "held_back");

@@ -38,6 +38,16 @@ inline std::string json_line(int track, double stamp, const State& state, bool i
       state.velocity.x, state.velocity.y, state.velocity.z);
 }
 
+/// Each track changes its id every nine seconds, and every fifth one has a second id.
+inline std::string changing_line(int track, double stamp, const State& state, bool is_wrong) {
+  const auto life = static_cast<int>((stamp + track) / 9.0);
+  const bool is_second = track % 5 == 0 && static_cast<int>(1000.0 * stamp) % 2 == 0;
+  return fmt::format(
+      "{{\"id\": \"t{}-{}{}\", \"stamp\": {:.3f}, \"position\": [{}, {}, {}], \"velocity\": [{}, {}, {}]}}\n",
+      track, life, is_second ? "~" : "", stamp, state.position.x + (is_wrong ? 50.0 : 0.0), state.position.y,
+      state.position.z, state.velocity.x, state.velocity.y, state.velocity.z);
+}
+
 inline std::string csv_line(int track, double stamp, const State& state, bool is_wrong) {
   const auto& [position, velocity] = state;
   return fmt::format("t{},{:.3f},{},{},{},{},{},{}\n", track, stamp, position.x + (is_wrong ? 50.0 : 0.0),

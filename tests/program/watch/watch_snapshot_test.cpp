@@ -41,6 +41,7 @@ class WatchRestart : public ProgramTest {
     json.erase("real_seconds");
     return json;
   }
+  void expect_shares_to_tell_all(const std::string& text);
   void expect_the_same_when_it_grows(const std::string& text, const std::string& options, int parts);
   /// Kills the watch again and again until it has reached the end.
   void expect_the_same_when_killed(const std::string& stream, const std::string& options, int seed) {
@@ -101,6 +102,13 @@ void WatchRestart::expect_the_same_when_it_grows(const std::string& text, const 
 TEST_F(WatchRestart, GoesOnWithAFileThatHasGrown) {
   const std::string timing = " --silence 3 --forget 8 ";
   expect_the_same_when_it_grows(stream_of(json_line, 8000), crossing_promises + crossing_errors + timing, 5);
+  // Ids that change while the program is away.
+  expect_the_same_when_it_grows(
+      stream_of(changing_line, 8000),
+      crossing_promises + crossing_errors + " --only within,predicted,lost,tracks" + timing, 25);
+  EXPECT_GT(summary("whole.json")["handovers"], 100);
+  EXPECT_GT(summary("whole.json")["one_bodies"], 5);
+  EXPECT_GT(summary("whole.json")["held_back_of_one_body"], 100);
   // Tracks that violate their limits: each may be at several places.
   expect_the_same_when_it_grows(stream_of(sbs_lines, 15000),
                                 " --separation sphere:500m --position-error 10:10 --clock stamps" + timing,
@@ -350,8 +358,12 @@ TEST_F(WatchRestart, RefusesSoundFilesOfNonsense) {
 }
 
 TEST_F(WatchRestart, SharesTellTogetherWhatOneTells) {
-  const std::string stream = write("s.jsonl", stream_of(json_line, 20000)) + crossing_promises +
-                             crossing_errors + " --silence 3 --forget 8";
+  for (const LineOf line : {json_line, changing_line}) expect_shares_to_tell_all(stream_of(line, 20000));
+}
+
+void WatchRestart::expect_shares_to_tell_all(const std::string& text) {
+  const std::string stream =
+      write("s.jsonl", text) + crossing_promises + crossing_errors + " --silence 3 --forget 8";
   const auto alerts_of = [&](std::initializer_list<const char*> shares) {
     AlertsByShare alerts;
     for (const std::string share : shares) {
