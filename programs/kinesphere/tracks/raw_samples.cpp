@@ -165,6 +165,7 @@ class RawTrackSet::FileReader final : public ReportSink {
 
   /// Returns null for an id that --ignore names.
   RawTrack* track_of(const SourceReport& report) const {
+    track_set_.identities_.note(report.id);
     const auto id = track_set_.identities_.name_of(report.id);
     if (!id) return nullptr;
     auto& tracks = track_set_.tracks_;

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string_view>
 
+#include "formats/ids/identities.hpp"
 #include "formats/streams/report_format.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
-#include "tracks/identities.hpp"
 #include "tracks/projection.hpp"
 
 namespace kinesphere::program {

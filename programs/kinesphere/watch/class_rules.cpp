@@ -8,8 +8,8 @@
 
 #include "base/ascii_text.hpp"
 #include "base/program_error.hpp"
+#include "formats/ids/id_list.hpp"
 #include "formats/tables/row_reader.hpp"
-#include "watch/id_rules.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -19,8 +19,8 @@ using Ids = std::unordered_set<std::string>;
 /// Returns the first field of each line, in lower case.
 std::shared_ptr<const Ids> ids_in(const std::string& path) {
   const auto ids = std::make_shared<Ids>();
-  for (const std::string& line : lines_of_list(path, "--class"))
-    ids->insert(in_lower_case(first_field(line)));
+  for (const ListedLine& line : lines_of_list(path, "--class"))
+    ids->insert(in_lower_case(first_field(line.text)));
   return ids;
 }
 

@@ -62,8 +62,8 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->type_name("ID");
   command
       ->add_option(
-          "--same", options.same,
-          "Two ids of one body, once or several times: reports of B count as those of A; or a file with "
+          "--same", options.ids.same,
+          "Two ids of one body, once or several times: reports of A count as those of B; or a file with "
           "A=B or A,B in each line")
       ->expected(1)
       ->allow_extra_args(false)
@@ -71,7 +71,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->type_name("A=B|@FILE");
   command
       ->add_option(
-          "--ignore", options.ignored,
+          "--ignore", options.ids.ignore,
           "Leave out the reports of this id, once or several times, or of a file with an id in each line")
       ->expected(1)
       ->allow_extra_args(false)

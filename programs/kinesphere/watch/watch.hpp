@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/ids/identities.hpp"
 #include "formats/streams/report_format.hpp"
 
 namespace kinesphere::program {
@@ -19,7 +20,7 @@ struct WatchOptions {
   std::vector<std::string> separations;
   std::string look_ahead, confirm, hold;
   std::string own;
-  std::vector<std::string> same, ignored;
+  IdentityChoice ids;
   bool distinct_ids = false;
   std::string rest;
   std::vector<std::string> only, areas;

@@ -176,8 +176,8 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.forget = positive_time(options.forget, "--forget", defaults.forget);
   settings.hold = positive_time(options.hold, "--hold", 60.0);
   settings.confirm = positive_time(options.confirm, "--confirm", 0.0);
-  settings.ids = IdRules(options.same, options.ignored);
-  settings.own = settings.ids.body_of(options.own);
+  settings.ids = Identities(options.ids);
+  settings.own = settings.ids.name_of(options.own).value_or(options.own);
   if (!options.only.empty()) {
     const auto names = [&](std::string_view kind) {
       return std::any_of(options.only.begin(), options.only.end(),
@@ -251,8 +251,8 @@ GivenOptions given_options(const WatchOptions& options) {
        {"--confirm", options.confirm},
        {"--hold", options.hold},
        {"--own", options.own},
-       {"--same", fmt::format("{}", fmt::join(options.same, "\n"))},
-       {"--ignore", fmt::format("{}", fmt::join(options.ignored, "\n"))},
+       {"--same", fmt::format("{}", fmt::join(options.ids.same, "\n"))},
+       {"--ignore", fmt::format("{}", fmt::join(options.ids.ignore, "\n"))},
        {"--distinct-ids", options.distinct_ids ? "true" : ""},
        {"--rest", options.rest},
        {"--only", fmt::format("{}", fmt::join(options.only, ","))},

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "formats/fields/separations.hpp"
+#include "formats/ids/identities.hpp"
 #include "kinesphere/monitor/monitor.hpp"
-#include "watch/id_rules.hpp"
 #include "watch/track_classes.hpp"
 
 namespace kinesphere::program {
@@ -38,7 +38,7 @@ struct WatchedArea {
 struct WatchSettings {
   std::vector<NamedSeparation> separations;
   std::string own;  ///< id of the track whose pairs are watched; empty: all pairs are
-  IdRules ids;
+  Identities ids;
   AlertKinds kinds;
   bool has_distinct_ids = false;   ///< each id is a body of its own
   bool has_steady_rate = true;     ///< SameBodies::Limits

@@ -32,9 +32,10 @@ Watcher::Watcher(WatchSettings settings, AlertFn alert)
 
 void Watcher::take(const SourceReport& report) {
   if (settings_.ids.is_empty()) return take_of_body(report);
-  if (settings_.ids.ignores(report.id)) return pass_over(Passed::filtered);
+  const auto body = settings_.ids.name_of(report.id);
+  if (!body) return pass_over(Passed::filtered);
   SourceReport of_body = report;
-  of_body.id = settings_.ids.body_of(report.id);
+  of_body.id = *body;
   take_of_body(of_body);
 }
 

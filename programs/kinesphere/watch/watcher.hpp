@@ -89,7 +89,7 @@ class Watcher final : public ReportSink {
     return clock_.source() == StreamClock::Source::arrivals && report.arrival ? *report.arrival
                                                                               : report.stamp;
   }
-  /// Takes a report whose id is that of its body (IdRules).
+  /// Takes a report whose id is that of its body (Identities).
   void take_of_body(const SourceReport& report);
   void hold(const SourceReport& report);
   void drop_held();

@@ -1,5 +1,5 @@
 // One body under two ids, ids of no interest, and one sender heard by two receivers.
-#include "tracks/identities.hpp"
+#include "formats/ids/identities.hpp"
 
 #include <fmt/format.h>
 

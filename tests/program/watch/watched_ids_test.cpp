@@ -4,7 +4,7 @@
 
 #include "program/support.hpp"
 
-namespace kinesphere::program::id_rules_test {
+namespace kinesphere::program::watched_ids_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -43,15 +43,15 @@ TEST_F(WatchedIds, AreThoseOfBodiesByTheUsersWord) {
   EXPECT_EQ(summary_["reports"], 2);
   EXPECT_EQ(told("--ignore '@" + write("list", "# mine\n\"A1\",x\n\nc\n") + "'"), "");
   // The reports of both count as those of one: b is 3 m from A1.
-  EXPECT_EQ(told("--same A1=b"), "A1-c ");
+  EXPECT_EQ(told("--same b=A1"), "A1-c ");
   EXPECT_EQ(summary_["tracks"], 2);
   EXPECT_EQ(summary_["reports"], 6);
   EXPECT_EQ(told("--same b=a1 --same c=b"), "");
   EXPECT_EQ(summary_["tracks"], 1);
-  EXPECT_EQ(told("--same '@" + write("pairs", "c,b\n# c is A1\nA1=c\n") + "'"), "");
+  EXPECT_EQ(told("--same '@" + write("pairs", "b,c\n# c is A1\nc=A1\n") + "'"), "");
   EXPECT_EQ(summary_["tracks"], 1);
   // The own track may be said by any of its ids.
-  EXPECT_EQ(told("--own b --same A1=b"), "A1-c ");
+  EXPECT_EQ(told("--own b --same b=A1"), "A1-c ");
 }
 
 TEST_F(WatchedIds, AreThoseOfMessages) {
@@ -63,7 +63,7 @@ TEST_F(WatchedIds, AreThoseOfMessages) {
   EXPECT_EQ(told(""), "3c65a1-~3c65a1 ");
   EXPECT_EQ(told("--ignore '~3C65A1'"), "");
   EXPECT_EQ(summary_["filtered"], 1);
-  EXPECT_EQ(told("--same '3c65a1=~3c65a1'"), "");
+  EXPECT_EQ(told("--same '~3c65a1=3c65a1'"), "");
   EXPECT_EQ(summary_["tracks"], 1);
 }
 
@@ -71,14 +71,15 @@ TEST_F(WatchedIds, NamesWhatIsWrong) {
   write("s", "id,time,x,y,z\na,0,0,0,9\n");
   const std::string options = "watch " + path("s") + promises_;
   for (const char* wrong : {"a", "a=", "=b", "a=A", "''"})
-    expect_wrong_input(options + "--same " + wrong, {"--same: expected two ids of one body"});
-  expect_wrong_input(options + "--same a=b --same c=B", {"--same: expected one body for B, but got a and c"});
-  expect_wrong_input(options + "--same a=b --same b=a", {"belongs to itself"});
+    expect_wrong_input(options + "--same " + wrong, {"--same: expected two ids as in A=B"});
+  expect_wrong_input(options + "--same b=a --same B=c",
+                     {"--same: expected 'B' to be the same as one id, but it is 'a' and 'c'"});
+  expect_wrong_input(options + "--same a=b --same b=a", {"is the same as itself"});
   expect_wrong_input(options + "--same @" + write("none", "# nothing\n"),
                      {"--same: expected ids in", "none"});
   expect_wrong_input(options + "--ignore @" + path("absent"), {"absent"});
-  expect_wrong_input(options + "--ignore ''", {"--ignore: expected an id or @FILE"});
+  expect_wrong_input(options + "--ignore ''", {"--ignore: expected an id, but got nothing"});
 }
 
 }  // namespace
-}  // namespace kinesphere::program::id_rules_test
+}  // namespace kinesphere::program::watched_ids_test
