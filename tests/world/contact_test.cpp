@@ -54,7 +54,8 @@ TEST_P(BeginsAndEnds, ComeWithinTheTolerance) {
       EXPECT_NEAR(norm(event.second_state.velocity - p.state(b, event.time).velocity), 0.0, 1e-12);
       EXPECT_NEAR(norm(event.normal), 1.0, 1e-12);
       EXPECT_GT(dot(event.normal, event.second_state.position - event.first_state.position), 0.0);
-      if (!touching) {
+      // Two that pass each other within the tolerance may be seen only when they recede.
+      if (!touching && event.gap <= 0.0) {
         EXPECT_GE(event.approach_speed, 0.0) << event;
       }
       const double to_first = norm(event.point - event.first_state.position) - p.radius(a);
