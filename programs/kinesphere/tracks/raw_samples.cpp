@@ -24,7 +24,7 @@ namespace kinesphere::program {
 namespace {
 
 /// Height of a sample without one, until all samples have come.
-constexpr double unknown_height = std::numeric_limits<double>::quiet_NaN();
+constexpr double missing_height = std::numeric_limits<double>::quiet_NaN();
 
 bool is_date(TimeKind kind) { return kind == TimeKind::date || kind == TimeKind::utc; }
 
@@ -94,10 +94,10 @@ class RawTrackSet::FileReader final : public ReportSink {
     if (report.row == nullptr) {
       agree_on_places(report);
       if (is_repeated(track, report)) return track_set_.count(track_set_.counts_.repeated, place_);
-      if (!report.has_height) position.z = unknown_height;
+      if (!report.has_height) position.z = missing_height;
       has_heights_ = has_heights_ || report.has_height;
     } else {
-      if (is_on_ground) position.z = unknown_height;
+      if (is_on_ground) position.z = missing_height;
       has_heights_ = has_heights_ || report.may_have_height;
       track.radius = std::max(track.radius, report.extent);
       add_scenes(*report.row, time.time);

@@ -8,6 +8,8 @@
 #include <optional>
 #include <unordered_map>
 
+#include "geography/flat_length.hpp"
+
 namespace kinesphere::program {
 namespace {
 
@@ -26,8 +28,6 @@ struct Nearest {
 
 /// Steps along all tracks together, at most about so many. More would cost more than the search.
 constexpr double most_steps = 4e6;
-
-double flat_length(const Vec3& way) { return std::hypot(way.x, way.y); }
 
 /// Places in square cells of the plane of x and y.
 class PlaceGrid {

@@ -20,7 +20,7 @@ using Ids = std::unordered_set<std::string>;
 std::shared_ptr<const Ids> ids_in(const std::string& path) {
   const auto ids = std::make_shared<Ids>();
   for (const ListedLine& line : lines_of_list(path, "--class"))
-    ids->insert(in_lower_case(first_field(line.text)));
+    ids->insert(in_lower_case(first_of_line(line.text)));
   return ids;
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "geography/flat_length.hpp"
+
 namespace kinesphere::program {
 namespace {
 
@@ -24,8 +26,6 @@ constexpr double before_stale = 0.95;
 constexpr double near_intervals = 5.0;
 /// Reports of each of two that are alike before they are one body.
 constexpr std::uint32_t enough_alike = 3;
-
-double flat_length(const Vec3& v) { return norm({v.x, v.y, 0.0}); }
 
 }  // namespace
 

@@ -22,7 +22,7 @@ std::string_view without_quotes(std::string_view text) {
   return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-std::string_view first_field(std::string_view line) {
+std::string_view first_of_line(std::string_view line) {
   return without_quotes(line.substr(0, line.find_first_of(",;\t")));
 }
 

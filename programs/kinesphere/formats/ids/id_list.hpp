@@ -12,7 +12,7 @@ std::string in_lower_case(std::string_view text);
 /// Returns the text without blanks around it, and without quotes around what is left.
 std::string_view without_quotes(std::string_view text);
 /// Returns what stands before a comma, semicolon or tab, without quotes.
-std::string_view first_field(std::string_view line);
+std::string_view first_of_line(std::string_view line);
 
 /// A line of a file, without the blanks around it.
 struct ListedLine {

@@ -28,7 +28,7 @@ void for_each_text(const std::vector<std::string>& texts, std::string_view optio
 
 Identities::Identities(const IdentityChoice& choice) {
   for_each_text(choice.ignore, "--ignore", [this](const auto& text, const auto& where, bool is_said) {
-    add_ignored(is_said ? text : std::string(first_field(text)), where, is_said);
+    add_ignored(is_said ? text : std::string(first_of_line(text)), where, is_said);
   });
   for_each_text(choice.same, "--same", [this](const auto& text, const auto& where, bool is_said) {
     add_same(text, where, is_said);
