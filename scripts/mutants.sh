@@ -33,9 +33,10 @@ build=build/mutants/build
 scripts/setup.sh test
 rm -rf "$copy"
 mkdir -p "$copy"
-git ls-files -z CMakeLists.txt cmake include src toolkit distributed simulation research tests | xargs -0 cp --parents -t "$copy"
+git ls-files -z CMakeLists.txt cmake include src toolkit distributed simulation programs research examples tests | xargs -0 cp --parents -t "$copy"
 cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
-  -DKINESPHERE_BUILD_TESTS=ON -DKINESPHERE_BUILD_MPI=ON -DKINESPHERE_BUILD_RESEARCH=ON >/dev/null
+  -DKINESPHERE_BUILD_TESTS=ON -DKINESPHERE_BUILD_PROGRAM=ON -DKINESPHERE_BUILD_MPI=ON \
+  -DKINESPHERE_BUILD_RESEARCH=ON >/dev/null
 
 apply() { (cd "$copy" && GIT_CEILING_DIRECTORIES=$PWD/.. git apply "$@" -); }
 caught_by() { mutant "$1" | sed -n 's/^Caught by: //p'; }

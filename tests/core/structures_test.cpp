@@ -241,8 +241,8 @@ TEST(RegionCells, TellThatARegionMayBeFoundTwice) {
   EXPECT_GT(repeats, 0U);
 }
 
-/// In a small world, too, each cell has a chain of its own, although those at the border are most of all: the
-/// regions of other cells are not looked at.
+/// In a small world, too, each cell has a chain of its own, although those around the filled ones are most of
+/// all: the regions of other cells are not looked at.
 TEST(RegionCells, DoNotShareChainsInASmallWorld) {
   constexpr std::uint32_t count = 1000;
   RegionCells cells({}, 3);
@@ -250,7 +250,8 @@ TEST(RegionCells, DoNotShareChainsInASmallWorld) {
   balls.grow(count);
   Random random(15);
   for (std::uint32_t number = 0; number < count; ++number) {
-    for (float& coordinate : balls[number].centre) coordinate = static_cast<float>(random.uniform(0.0, 20.0));
+    for (int axis = 0; axis < 3; ++axis)
+      balls[number].centre[axis] = static_cast<float>(random.uniform(0.0, axis == 0 ? 200.0 : 6.0));
     cells.enter(balls, number, RegionCells::raised(1.0F));
   }
   cells.rebuild(balls);
