@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,7 +29,7 @@ struct EncodedStation {
 class AisWriter {
  public:
   AisWriter& add(int bits, std::int64_t value) {
-    for (int k = bits - 1; k >= 0; --k) text_ += (value >> k & 1) != 0 ? '1' : '0';
+    for (int k = bits - 1; k >= 0; --k) text_ += (value >> std::min(k, 63) & 1) != 0 ? '1' : '0';
     return *this;
   }
   AisWriter& spare(int bits) { return add(bits, 0); }
