@@ -136,17 +136,9 @@ Inductive step : state -> state -> Prop :=
       step s (set_balls (put s a (with_known (balls s a) (Some p))) s)
 
   (* A discontinuity: a velocity change, a change by the caller, or a report that breaks the promise. It may end
-     contacts of the body. If the new state is not known, a report is needed first. *)
+     contacts of the body. If the new state is not known, a report is needed first. So it is with a body that is added or
+     enabled. *)
   | change s a k r n :
-      there (balls s a) = true ->
-      (forall p, k = Some p -> keeps_to (a, S (revision (balls s a))) p (now s)) ->
-      same_but_of a r (graph s) -> same_but_of a n (news s) ->
-      (forall x y, only_ends (graph s x y) (r x y)) ->
-      step s (set_balls (put s a (changed (balls s a) true true k)) (set_pairs r n s))
-
-  (* A body is added or enabled. *)
-  | come s a k r n :
-      there (balls s a) = false ->
       (forall p, k = Some p -> keeps_to (a, S (revision (balls s a))) p (now s)) ->
       same_but_of a r (graph s) -> same_but_of a n (news s) ->
       (forall x y, only_ends (graph s x y) (r x y)) ->

@@ -110,7 +110,7 @@ Qed.
 Lemma step_keeps s s' : step s s' -> keeps s -> keeps s'.
 Proof.
   intros St K. destruct St as
-    [s a p Ob | s a k r n Th Kn G Ne Oe | s a k r n Th Kn G Ne Oe | s a r n G Ne Oe
+    [s a p Ob | s a k r n Kn G Ne Oe | s a r n G Ne Oe
     | s set f l n s' Fx Fs Fl Ho Nb Dd | s a b ka kb r n Lt Pa Pb G Ne Oe s' Ce
     | s a b r Le Nw G | s a b n Le Nc Ne | s t Nt Cl Ns Du].
   - (* report *)
@@ -137,7 +137,6 @@ Proof.
       setoid_rewrite Em. apply D; [exact Lt|apply Ec, Cx|apply Ec, Cy|exact Co].
     + exact P.
     + exact Pp.
-  - apply changed_keeps; trivial; auto.
   - apply changed_keeps; trivial; auto.
   - apply changed_keeps; trivial; try discriminate.
   - (* settle *)
@@ -344,11 +343,11 @@ Lemma step_reports_begins s s' : step s s' -> reports_begins s -> reports_begins
 Proof.
   intros St [B S]. assert (E : forall r, only_ends r r) by apply nothing_ends.
   destruct St as
-    [s a p Ob | s a k r n Th Kn G Ne Oe | s a k r n Th Kn G Ne Oe | s a r n G Ne Oe
+    [s a p Ob | s a k r n Kn G Ne Oe | s a r n G Ne Oe
     | s set f l n s' Fx Fs Fl Ho Nb Dd | s a b ka kb r n Lt Pa Pb G Ne Oe s' Ce
     | s a b r Le Nw G | s a b n Le Nc Ne | s t Nt Cl Ns Du]; split;
     try exact S; try exact B; simpl.
-  1-3: intros x y; eapply reported_later; [apply B|auto|simpl; lra|apply Oe].
+  1-2: intros x y; eapply reported_later; [apply B|auto|simpl; lra|apply Oe].
   - intros x y. destruct (Nat.eq_dec x a) as [Ex|Nx], (Nat.eq_dec y b) as [Ey|Ny].
     { subst x y. eapply reported_later; [apply B|auto|simpl; lra|exact Oe]. }
     all: rewrite G by tauto; apply B.

@@ -67,15 +67,16 @@ def tracks_in(
     does not say it. positions: what x and y are: "plane", "lonlat", or a zone as "utm:33N". altitude: which one
     is the height of aircraft in messages.
     plan: rows are waypoints, between which ways go straight on however far apart these are. interpolate: "spline",
-    or in a plan "linear", when not given. outside: before its first and after its last sample a body is not there, stays
-    at that sample, or goes straight on.
+    or in a plan "linear", when not given. outside: before its first and after its last sample a body is not there,
+    stays at that sample, or goes straight on.
     same: ids that are other ids, as {"17": "18"} or "17=18". ignore: ids to leave out. Both may be "@FILE".
     All others are the options of the program of that name (docs/tracks.md).
     program: where it is, if not in PATH.
 
     Ids are texts. Times are numbers of the file's unit, or datetime64 (in UTC where the file says a zone);
-    frames are seconds since frame 0. first_before, first_after, second_before and second_after are the times of the samples
-    between which closest_time lies, and samples_apart the longer of the two times between them, in seconds. Positions are those of the file, with NaN as z of motion in a plane.
+    frames are seconds since frame 0. first_before, first_after, second_before and second_after are the times of the
+    samples between which closest_time lies, and samples_apart the longer of the two times between them, in seconds.
+    Positions are those of the file, with NaN as z of motion in a plane.
 
     The result's summary is what `kinesphere tracks --summary` writes: what was read, and what was not looked at, as
     "not_looked_at_s" of the seconds "together_s" that pairs are there together, "pairs_never_looked_at" and
