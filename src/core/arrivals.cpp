@@ -27,12 +27,14 @@ void Core::place_arrivals(std::span<const std::uint32_t> changed, Host& host) {
     if (balls_[number].is(Ball::arriving)) arrivals.push_back(number);
   if (arrivals.empty()) return;
   choose_first_radius();
+  const bool are_many = arrivals.size() > single_arrivals && 2 * arrivals.size() > present_;
   if (arrivals.size() > single_arrivals) {
-    place_together(arrivals, host);
+    place_together(arrivals, are_many, host);
   } else {
-    for (const std::uint32_t number : arrivals) enter_region(number, radius_among_others(number), host);
+    for (const std::uint32_t number : arrivals)
+      enter_region(number, radius_among_others(number), false, host);
   }
-  if (2 * arrivals.size() > present_) cells_.rebuild(balls_);
+  if (are_many) cells_.sort(balls_);
   for (const std::uint32_t number : arrivals) {
     balls_[number].set(Ball::arriving, false);
     find_neighbours(number, host);
@@ -44,10 +46,10 @@ void Core::place_arrivals(std::span<const std::uint32_t> changed, Host& host) {
 
 /// Gives balls that arrive together first safe regions: each part of space, with about equally many of them,
 /// as wide ones as they are apart there.
-void Core::place_together(std::span<std::uint32_t> arrivals, Host& host) {
+void Core::place_together(std::span<std::uint32_t> arrivals, bool are_many, Host& host) {
   if (arrivals.size() <= even_arrivals) {
     const double radius = first_radius_of(arrivals);
-    for (const std::uint32_t number : arrivals) enter_region(number, radius, host);
+    for (const std::uint32_t number : arrivals) enter_region(number, radius, are_many, host);
     return;
   }
   const Box extent = extent_of(arrivals);
@@ -58,8 +60,8 @@ void Core::place_together(std::span<std::uint32_t> arrivals, Host& host) {
     const double at_a = balls_[a].position[axis], at_b = balls_[b].position[axis];
     return at_a < at_b || (at_a == at_b && a < b);
   });
-  place_together(arrivals.first(arrivals.size() / 2), host);
-  place_together(arrivals.subspan(arrivals.size() / 2), host);
+  place_together(arrivals.first(arrivals.size() / 2), are_many, host);
+  place_together(arrivals.subspan(arrivals.size() / 2), are_many, host);
 }
 
 /// Returns the radius of the first safe region of a ball that arrives alone (length): it has a few neighbours
@@ -87,7 +89,7 @@ void Core::join_crowd(std::uint32_t number, Host& host) {
   const auto middle = others.begin() + static_cast<std::ptrdiff_t>(others.size() / 2);
   std::nth_element(others.begin(), middle, others.end());
   if (!(*middle < 0.7F * ball.region)) return;
-  enter_region(number, double{*middle} * unit_, host);
+  enter_region(number, double{*middle} * unit_, false, host);
   find_neighbours(number, host);
 }
 

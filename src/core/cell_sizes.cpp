@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "core/region_cells.hpp"
 #include "number/infinity.hpp"
@@ -18,6 +20,18 @@ constexpr double wanted_in_cell = 7.0;
 constexpr std::size_t chains_of_small_worlds = 8192;
 /// Returns how many chains a level of so many regions may have.
 constexpr std::size_t most_chains_of(std::size_t regions) { return 2 * regions + 512; }
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+/// Returns the width of cells of which each has `part` of all that is spread evenly over a box, or over less
+/// dimensions if it is flat.
+double even_width(double (&edges)[3], double part) {
+  std::sort(std::begin(edges), std::end(edges));
+  const double cube = cube_root(edges[0] * edges[1] * edges[2] * part);
+  if (edges[0] > cube) return cube;
+  const double square = std::sqrt(edges[1] * edges[2] * part);
+  return edges[1] > square ? square : edges[2] * part;
+}
 
 }  // namespace
 
@@ -77,25 +91,74 @@ double RegionCells::wanted_width(std::size_t number, double narrowest,
 void RegionCells::rebuild(Balls& balls) {
   entered_ = 0;
   if (regions_ == 0) return;
+  if (!levels_suit()) {
+    choose_levels();
+    insert_all(balls);
+  }
+  refine(balls);
+}
+
+void RegionCells::sort(Balls& balls) {
+  entered_ = 0;
+  if (regions_ == 0) return;
+  choose_levels();
+  insert_all(balls);
+  refine(balls);
+}
+
+/// Returns the median reach of some regions, and the top of the first level that suits them: it has nearly all
+/// regions, but none that are much larger than most.
+std::pair<float, float> RegionCells::typical_reaches() const {
   std::vector<float> reaches;
   for (const std::uint32_t slot : sample()) reaches.push_back(reach_of(slot));
   std::sort(reaches.begin(), reaches.end());
   const float median = reaches[reaches.size() / 2];
-  // The first level has nearly all regions, but none that are much larger than most.
-  const float top = std::min(1.05F * reaches[reaches.size() - 1 - reaches.size() / 32], 2.0F * median);
-  const bool is_suited = median < 1.25F * median_ && median > 0.8F * median_ &&
-                         top < 1.15F * levels_[0].top && top > 0.75F * levels_[0].top &&
-                         regions_ <= 2 * built_for_;
-  if (!is_suited) {
-    median_ = median;
-    float bound = top;
-    for (Level& level : levels_) {
-      level.top = bound;
-      set_width(level, 2.0 * static_cast<double>(bound));
-      bound *= 4.0F;
-    }
-    insert_all(balls);
+  return {median, std::min(1.05F * reaches[reaches.size() - 1 - reaches.size() / 32], 2.0F * median)};
+}
+
+bool RegionCells::levels_suit() const {
+  const auto [median, top] = typical_reaches();
+  return median < 1.25F * median_ && median > 0.8F * median_ && top < 1.15F * levels_[0].top &&
+         top > 0.75F * levels_[0].top && regions_ <= 2 * built_for_;
+}
+
+/// Chooses levels, and widths of cells as if the regions of a level were spread evenly.
+void RegionCells::choose_levels() {
+  auto [median, bound] = typical_reaches();
+  median_ = median;
+  for (Level& level : levels_) {
+    level.top = bound;
+    level.regions = 0;
+    level.largest_reach = 0.0F;
+    bound *= 4.0F;
   }
+  struct Extent {
+    float lower[3]{infinite, infinite, infinite}, upper[3]{-infinite, -infinite, -infinite};
+  };
+  std::array<Extent, most_levels> extents;
+  for_each_region([&](const RegionBlock& block, std::uint32_t lane, std::uint32_t) {
+    const std::size_t number = level_of(block.reach[lane]);
+    ++levels_[number].regions;
+    levels_[number].largest_reach = std::max(levels_[number].largest_reach, block.reach[lane]);
+    const float centre[3] = {block.x[lane], block.y[lane], block.z[lane]};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      extents[number].lower[axis] = std::min(extents[number].lower[axis], centre[axis]);
+      extents[number].upper[axis] = std::max(extents[number].upper[axis], centre[axis]);
+    }
+  });
+  for (std::size_t number = 0; number < most_levels; ++number) {
+    Level& level = levels_[number];
+    double edges[3], width = 2.0 * static_cast<double>(level.top);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      edges[axis] = double{extents[number].upper[axis]} - double{extents[number].lower[axis]};
+    if (level.regions > 0) width = even_width(edges, wanted_in_cell / level.regions);
+    const double most = std::max(widest * static_cast<double>(level.largest_reach), 0.5 * double{median_});
+    set_width(level, level.regions > 0 ? std::clamp(width, 0.5 * double{median_}, most) : width);
+  }
+}
+
+/// Chooses the widths of cells anew until they suit.
+void RegionCells::refine(Balls& balls) {
   double slack = 1.25;
   for (int round = 0; round < 8; ++round) {
     bool is_fine = true;
@@ -127,18 +190,16 @@ void RegionCells::insert_all(Balls& balls) {
     level.largest_reach = 0.0F;
     set_width(level, level.width);
   }
-  for (std::size_t place = 0; place < blocks_.size(); ++place)
-    for (std::uint32_t lane = 0; lane < links_[place].count; ++lane) {
-      const RegionBlock& block = blocks_[place];
-      all.push_back({balls_[place].balls[lane], block.reach[lane]});
-      Level& level = levels_[level_of(block.reach[lane])];
-      ++level.regions;
-      const auto cell = cell_of(level, block.x[lane], block.y[lane], block.z[lane]);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        Range& filled = level.axes[axis].filled;
-        filled = {std::min(filled.first, cell[axis]), std::max(filled.last, cell[axis])};
-      }
+  for_each_region([&](const RegionBlock& block, std::uint32_t lane, std::uint32_t ball) {
+    all.push_back({ball, block.reach[lane]});
+    Level& level = levels_[level_of(block.reach[lane])];
+    ++level.regions;
+    const auto cell = cell_of(level, block.x[lane], block.y[lane], block.z[lane]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Range& filled = level.axes[axis].filled;
+      filled = {std::min(filled.first, cell[axis]), std::max(filled.last, cell[axis])};
     }
+  });
   choose_chains();
   for (Level& level : levels_) level.regions = 0;
   regions_ = 0;

@@ -44,6 +44,8 @@ Core::Core(const WorldDefinition& definition)
 
 void Core::enter(std::uint32_t number, const Bound& bound, bool is_passive, bool meets_walls) {
   balls_.grow(number + 1);
+  if (changes_.size() < balls_.size()) changes_.resize(balls_.size());
+  changes_[number] = 0;
   Ball& ball = balls_[number] = Ball();
   ball.due = ball.second = ball.own = infinity;
   ball.set(Ball::passive, is_passive);
@@ -52,8 +54,6 @@ void Core::enter(std::uint32_t number, const Bound& bound, bool is_passive, bool
   ball.set(Ball::present, true);
   if (!is_passive) ball.list = lists_.add();
   balls_.set_bound(number, bound);
-  place_region(number, 0.0);
-  cells_.enter(balls_, number, reach(ball));
   ++present_;
 }
 
@@ -61,7 +61,7 @@ void Core::leave(std::uint32_t number) {
   Ball& ball = balls_[number];
   forget_neighbours(number);
   if (!ball.is(Ball::passive)) lists_.remove(ball.list);
-  cells_.leave(balls_, number);
+  if (ball.has_region()) cells_.leave(balls_, number);
   ball = Ball();
   ball.due = infinity;
   --present_;
@@ -84,6 +84,8 @@ void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
     if (balls_[number].is(Ball::at_wall) || balls_[number].own > balls_.time()) continue;
     move_region(number, host);
   }
+  for (const std::uint32_t number : settling_)
+    if (!balls_[number].is(Ball::passive)) note_change(number);
   for (const std::uint32_t number : settling_) schedule(number, host);
   if (balls_.size() <= 2 * queued_for_) return;
   queue_.refill(balls_.all(), balls_.time());
@@ -122,7 +124,8 @@ Result<void> Core::handle(std::uint32_t number, Host& host) {
   if (!until) return until.error();
   postpone(number, *until);
   // The other one may be due about the same.
-  if (balls_[other].about == number && balls_[other].due <= balls_.time()) postpone(other, *until);
+  if (balls_[other].about == number && balls_[other].due <= balls_.time())
+    postpone(other, std::min(*until, balls_[number].own));
   return {};
 }
 
@@ -134,21 +137,27 @@ Result<double> Core::recheck(std::uint32_t number, std::uint32_t other, Host& ho
   ++host.work_counters().pair_checks;
   const Ball &ball = balls_[number], &partner = balls_[other];
   const auto is_plain = [](const Ball& each) { return each.is(Ball::plain) && !each.is(Ball::linked); };
-  if (!is_plain(ball) || !is_plain(partner)) return host.recheck(number, other);
+  // What the host says holds as long as both stay in their safe regions.
+  const auto ask_host = [&]() -> Result<double> {
+    const Result<double> until = host.recheck(number, other);
+    if (!until) return until.error();
+    return std::min(*until, partner.own);
+  };
+  if (!is_plain(ball) || !is_plain(partner)) return ask_host();
   const double now = balls_.time();
   const bool are_exact = balls_.is_exact(number) && balls_.is_exact(other);
   for (;;) {
-    const double until = apart_until(number, other, std::min(ball.own, partner.own) - now);
+    const double until = apart_until(number, other, ball.own - now);
     ++host.work_counters().certificates;
     if (until > now) return until;
-    if (ball.time == now && partner.time == now) return host.recheck(number, other);
+    if (ball.time == now && partner.time == now) return ask_host();
     const bool is_first = ball.time < partner.time;
     const std::array<std::uint32_t, 2> older{is_first ? number : other, is_first ? other : number};
     const bool asks_both = are_exact && std::max(ball.time, partner.time) < now;
     const Result<bool> kept = host.report(std::span(older).first(asks_both ? 2 : 1), Host::Reason::near);
     if (!kept) return kept.error();
     if (!*kept) return infinity;
-    if (are_exact) return host.recheck(number, other);
+    if (are_exact) return ask_host();
   }
 }
 

@@ -8,8 +8,8 @@
 //   N  If the safe regions of two balls come within reach of each other, each is in the other's list, unless
 //      the two never have to do with each other (Host::keep_partners()). A ball that never moves, a passive
 //      one, has no list: it is in those of others.
-//   D  Of two neighbours, at least one has computed Ball::due since the velocity or the safe region of either
-//      last changed, and the two do not touch before it. No ball is due after its own time.
+//   D  Of two neighbours, the one whose velocity or safe region has changed last looks out for the other: it
+//      has computed Ball::due since, and the two do not touch before it. No ball is due after its own time.
 //
 // By H, two balls that touch are in safe regions within reach of each other, or one of the two is due. By N
 // they are neighbours then, and by D one of the two is due no later than they touch.
@@ -87,7 +87,7 @@ class Core {
 
   /// Serializes what rebuild() cannot find again.
   static void serialize(auto& self, auto& archive) {
-    archive(self.balls_, self.first_radius_, self.measured_);
+    archive(self.balls_, self.changes_, self.last_change_, self.first_radius_, self.measured_);
     if constexpr (std::is_const_v<std::remove_reference_t<decltype(self)>>) {
       archive(self.saved());
     } else {
@@ -146,7 +146,11 @@ class Core {
   void prefetch() const;
 
   // scan.cpp
+  void note_change(std::uint32_t number) { changes_[number] = ++last_change_; }
   void schedule(std::uint32_t number, Host& host);
+  std::span<const std::uint32_t> looked_out_for(std::uint32_t number,
+                                                std::span<const std::uint32_t> neighbours,
+                                                std::span<std::uint32_t> room) const;
   void consider(Ball& ball, std::uint32_t other, double time);
   std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours, double duration,
                            std::span<double, most_lanes> apart) const;
@@ -156,7 +160,7 @@ class Core {
   Result<void> leave_region(std::uint32_t number, Host& host);
   void move_region(std::uint32_t number, Host& host);
   void place_region(std::uint32_t number, double radius);
-  void enter_region(std::uint32_t number, double radius, Host& host);
+  void enter_region(std::uint32_t number, double radius, bool is_of_many, Host& host);
   void find_neighbours(std::uint32_t number, Host& host);
   void join_lists(std::uint32_t number, Host& host);
   void compare_neighbours(std::uint32_t number, Host& host);
@@ -181,7 +185,7 @@ class Core {
 
   // arrivals.cpp
   void place_arrivals(std::span<const std::uint32_t> changed, Host& host);
-  void place_together(std::span<std::uint32_t> arrivals, Host& host);
+  void place_together(std::span<std::uint32_t> arrivals, bool are_many, Host& host);
   double radius_among_others(std::uint32_t number);
   void join_crowd(std::uint32_t number, Host& host);
   void choose_first_radius();
@@ -208,6 +212,8 @@ class Core {
   NeighbourLists lists_;
   RegionCells cells_;
   DueQueue queue_;
+  std::vector<std::uint64_t> changes_;  ///< by number: in which order balls have changed last; 0 for passive ones
+  std::uint64_t last_change_ = 0;
   double first_radius_ = 0.0;   ///< of the first safe region of a ball that arrives alone (length)
   Saved saved_;                 ///< from a snapshot, until rebuild()
   std::size_t present_ = 0;     ///< how many balls there are

@@ -26,7 +26,7 @@ bool Core::can_hold(const Bound& bound, double time) const {
 
 bool Core::rebuild(double time) {
   balls_.set_time(time);
-  if (!balls_.has_valid_drifts() || saved_.reaches.size() != balls_.size() ||
+  if (!balls_.has_valid_drifts() || saved_.reaches.size() != balls_.size() || changes_.size() != balls_.size() ||
       saved_.lists.size() != balls_.size())
     return false;
   std::vector<std::vector<std::uint32_t>> sorted = saved_.lists;
@@ -37,7 +37,7 @@ bool Core::rebuild(double time) {
     Ball& ball = balls_[number];
     if (!ball.is_present()) continue;
     ++present_;
-    cells_.enter(balls_, number, saved_.reaches[number]);
+    if (!ball.is(Ball::arriving)) cells_.enter(balls_, number, saved_.reaches[number]);
     if (ball.is(Ball::passive)) continue;
     ball.list = lists_.add();
     lists_.assign(ball.list, saved_.lists[number]);
@@ -56,8 +56,9 @@ bool Core::is_valid(std::uint32_t number, std::span<const std::vector<std::uint3
   const std::vector<std::uint32_t>& neighbours = lists[number];
   if (!ball.is_present()) return neighbours.empty();
   const float reach = saved_.reaches[number];
+  if (ball.is(Ball::arriving)) return reach == 0.0F && neighbours.empty() && ball.about == none;
   if (!(reach > 0.0F && reach < 0x1p62F)) return false;
-  if ((ball.is(Ball::passive) || ball.is(Ball::arriving)) && !neighbours.empty()) return false;
+  if (ball.is(Ball::passive) && !neighbours.empty()) return false;
   const bool waits = ball.about != none && ball.about != number;
   if (waits && (ball.is(Ball::passive) || !contains(ball.about))) return false;
   if (std::adjacent_find(neighbours.begin(), neighbours.end(), std::greater_equal()) != neighbours.end())

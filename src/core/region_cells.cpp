@@ -62,6 +62,17 @@ void RegionCells::enter(Balls& balls, std::uint32_t ball, float reach) {
   if (++entered_ > 2 * regions_ + 64 || is_crowded) rebuild(balls);
 }
 
+void RegionCells::add_unsorted(Balls& balls, std::uint32_t ball, float reach) {
+  ++regions_;
+  std::size_t place = blocks_.size() - 1;
+  // Those of all chains come first.
+  if (place < chains_ || links_[place].count == lanes) {
+    add_blocks(1);
+    ++place;
+  }
+  put(balls, ball, reach, static_cast<std::uint32_t>(place));
+}
+
 void RegionCells::prefetch(const Ball& ball, float reach) const {
   const Level& level = levels_[level_of(reach)];
   const auto cell = cell_of(level, ball.centre[0], ball.centre[1], ball.centre[2]);
@@ -71,7 +82,7 @@ void RegionCells::prefetch(const Ball& ball, float reach) const {
 }
 
 void RegionCells::insert(Balls& balls, std::uint32_t ball, float reach) {
-  Ball& b = balls[ball];
+  const Ball& b = balls[ball];
   Level& level = levels_[level_of(reach)];
   ++level.regions;
   ++regions_;
@@ -90,6 +101,12 @@ void RegionCells::insert(Balls& balls, std::uint32_t ball, float reach) {
     add_blocks(1);
     place = links_[place].next = fresh;
   }
+  put(balls, ball, reach, place);
+}
+
+/// Puts a region into a block that has room.
+void RegionCells::put(Balls& balls, std::uint32_t ball, float reach, std::uint32_t place) {
+  Ball& b = balls[ball];
   const std::uint32_t lane = links_[place].count++;
   RegionBlock& block = blocks_[place];
   block.x[lane] = b.centre[0], block.y[lane] = b.centre[1], block.z[lane] = b.centre[2];

@@ -59,6 +59,10 @@ class RegionCells {
   /// Enters the safe region of a ball, and sets its slot. `reach` > 0.
   void enter(Balls& balls, std::uint32_t ball, float reach);
   void leave(Balls& balls, std::uint32_t ball);
+  /// Enters the safe region of a ball as enter() does, but no search is possible before sort(): for many.
+  void add_unsorted(Balls& balls, std::uint32_t ball, float reach);
+  /// Puts all regions into cells, whose widths suit them. All slots change. Cost: O(n).
+  void sort(Balls& balls);
   /// Fetches what enter() will read.
   void prefetch(const Ball& ball, float reach) const;
   /// Returns the reach with which the region in this slot was entered.
@@ -128,6 +132,7 @@ class RegionCells {
     return chain < chains_ ? chain : chain - chains_;
   }
   void insert(Balls& balls, std::uint32_t ball, float reach);
+  void put(Balls& balls, std::uint32_t ball, float reach, std::uint32_t place);
   void add_blocks(std::size_t count);
   std::array<Range, 3> cells_near(const Level& level, const RegionQuery& query) const;
   void list_cells(const Level& level, const std::array<Range, 3>& near, RegionSearch& search) const;
@@ -135,6 +140,16 @@ class RegionCells {
   void follow_chains(RegionSearch& search) const;
 
   // cell_sizes.cpp
+  /// Calls visit(block, lane, ball) for each region.
+  void for_each_region(auto visit) const {
+    for (std::size_t place = 0; place < blocks_.size(); ++place)
+      for (std::uint32_t lane = 0; lane < links_[place].count; ++lane)
+        visit(blocks_[place], lane, balls_[place].balls[lane]);
+  }
+  std::pair<float, float> typical_reaches() const;
+  bool levels_suit() const;
+  void choose_levels();
+  void refine(Balls& balls);
   void set_width(Level& level, double width);
   std::vector<std::uint32_t> sample() const;
   double crowding(std::size_t number, const std::vector<std::uint32_t>& some) const;

@@ -67,6 +67,7 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
       if (auto reported = host.report(std::span(&number, 1), Host::Reason::region); !reported)
         return reported.error();
     move_region(number, host);
+    note_change(number);
   } else {
     compute_own_later(number, host);
   }
@@ -151,13 +152,20 @@ void Core::place_region(std::uint32_t number, double radius) {
     if (dot(inside.normal, middle) - inside.offset < extent) ball.walls |= wall_bit(wall);
 }
 
-/// Gives the ball another safe region, which has no part in the lists of neighbours yet.
-void Core::enter_region(std::uint32_t number, double radius, Host& host) {
+/// Gives the ball another safe region, which has no part in the lists of neighbours yet. Those of many balls are
+/// put into cells together, later.
+void Core::enter_region(std::uint32_t number, double radius, bool is_of_many, Host& host) {
   place_region(number, radius);
-  cells_.prefetch(balls_[number], reach(balls_[number]));
-  cells_.leave(balls_, number);
-  cells_.enter(balls_, number, reach(balls_[number]));
-  if (balls_.periods().any) host.note_image(number, region_centre(balls_[number]));
+  const Ball& ball = balls_[number];
+  if (ball.has_region()) {
+    cells_.prefetch(ball, reach(ball));
+    cells_.leave(balls_, number);
+  }
+  if (is_of_many)
+    cells_.add_unsorted(balls_, number, reach(ball));
+  else
+    cells_.enter(balls_, number, reach(ball));
+  if (balls_.periods().any) host.note_image(number, region_centre(ball));
 }
 
 /// Makes those within reach the neighbours of the ball, and it theirs; others are no longer.

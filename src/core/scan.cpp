@@ -9,8 +9,8 @@
 
 namespace kinesphere::core {
 
-/// Computes when a ball is due: at its own time, or when something may happen between it and a neighbour, if
-/// that is earlier.
+/// Computes when a ball is due: at its own time, or when something may happen between it and a neighbour that it
+/// looks out for, if that is earlier.
 void Core::schedule(std::uint32_t number, Host& host) {
   Ball& ball = balls_[number];
   if (ball.is(Ball::passive)) return;
@@ -21,7 +21,9 @@ void Core::schedule(std::uint32_t number, Host& host) {
   const auto neighbours = lists_.at(ball.list);
   Counters& work = host.work_counters();
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
-    const auto some = neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes));
+    std::array<std::uint32_t, most_lanes> room;
+    const auto some = looked_out_for(
+        number, neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes)), room);
     std::array<double, most_lanes> apart;
     for (std::uint32_t left = candidates(number, some, ball.second - balls_.time(), apart); left != 0;
          left &= left - 1) {
@@ -31,7 +33,7 @@ void Core::schedule(std::uint32_t number, Host& host) {
       if (!(until > balls_.time())) until = apart_until(number, other, ball.second - balls_.time());
       if (!(until > balls_.time())) {
         ball.set(Ball::crowded, true);
-        until = host.unchanged_until(number, other);
+        until = std::min(host.unchanged_until(number, other), balls_[other].own);
       }
       ++work.certificates;
       if (until < ball.own) ++work.hot_pairs;
@@ -40,8 +42,23 @@ void Core::schedule(std::uint32_t number, Host& host) {
   }
   if (ball.is(Ball::linked))
     for (const std::uint32_t other : host.linked_with(number))
-      consider(ball, other, host.unchanged_until(number, other));
+      if (changes_[other] <= changes_[number]) consider(ball, other, std::min(host.unchanged_until(number, other), balls_[other].own));
   queue_.push(balls_.all(), number);
+}
+
+/// Returns those of some neighbours that a ball looks out for, as they have not changed since it did. The others
+/// look out for it. There has to be room for all of them.
+std::span<const std::uint32_t> Core::looked_out_for(std::uint32_t number,
+                                                    std::span<const std::uint32_t> neighbours,
+                                                    std::span<std::uint32_t> room) const {
+  const std::uint64_t change = changes_[number];
+  if (change == last_change_) return neighbours;
+  std::size_t count = 0;
+  for (const std::uint32_t neighbour : neighbours) {
+    room[count] = neighbour;
+    count += static_cast<std::size_t>(changes_[neighbour] <= change);
+  }
+  return room.first(count);
 }
 
 /// Something may happen between a ball and a neighbour at this time. Of two at the same time, the ball is due
