@@ -202,3 +202,27 @@ Proof.
   intros e He. specialize (L e He). specialize (PS e He). fold (S e).
   generalize (norm_positive (X + e * V + (e * e / 2) * G)) (norm_square (X + e * V + (e * e / 2) * G)). nra.
 Qed.
+
+(* Of two that go straight on, C + V d, and grow by g + s d + a d^2 / 2: if the distance of the centres with the growth
+   is below a reach now and at some time, it is so until then, since it is a convex function. *)
+Theorem two_that_go_straight_stay_within (C V : vector) (g s a reach T : R) :
+  0 <= a -> 0 < T -> norm C + g < reach -> norm (C + T * V)%vector + (g + s * T + a * (T * T / 2)) < reach ->
+  forall d, 0 <= d <= T -> norm (C + d * V)%vector + (g + s * d + a * (d * d / 2)) < reach.
+Proof.
+  intros A HT B E d Hd.
+  set (k := d / T). assert (d = k * T) as D by (unfold k; field; lra).
+  assert (0 <= k) as K0 by (unfold k; apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra]).
+  assert (k <= 1) as K1 by nra.
+  assert (C + d * V = (1 - k) * C + k * (C + T * V))%vector as W by (rewrite D; by_coordinates).
+  generalize (norm_plus ((1 - k) * C) (k * (C + T * V))). rewrite <- W, !norm_times.
+  rewrite (Rabs_pos_eq (1 - k)), (Rabs_pos_eq k) by lra. intros N.
+  assert (d * d <= k * (T * T)) as Q.
+  { rewrite D. assert (0 <= k * (1 - k) * (T * T)) by (apply Rmult_le_pos; [nra | nra]). nra. }
+  assert (a * (d * d / 2) <= k * (a * (T * T / 2))) as G by nra.
+  set (now := norm C + g) in *. set (later := norm (C + T * V)%vector + (g + s * T + a * (T * T / 2))) in *.
+  apply Rle_lt_trans with ((1 - k) * now + k * later).
+  - unfold now, later. rewrite D in *. lra.
+  - destruct (Rle_lt_or_eq_dec k 1 K1) as [L | ->]; [|lra].
+    assert (0 < (1 - k) * (reach - now)) by (apply Rmult_lt_0_compat; lra).
+    assert (0 <= k * (reach - later)) by (apply Rmult_le_pos; lra). lra.
+Qed.

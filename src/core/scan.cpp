@@ -17,7 +17,7 @@ void Core::schedule(std::uint32_t number, Host& host) {
   if (ball.scans < 255) ++ball.scans;
   ball.about = none;
   ball.due = ball.second = ball.own;
-  ball.set(Ball::crowded, false);
+  if (changes_[number] == last_change_) ball.set(Ball::crowded, false);
   const auto neighbours = lists_.at(ball.list);
   Counters& work = host.work_counters();
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
@@ -33,6 +33,7 @@ void Core::schedule(std::uint32_t number, Host& host) {
       if (!(until > balls_.time())) until = apart_until(number, other, ball.second - balls_.time());
       if (!(until > balls_.time())) {
         ball.set(Ball::crowded, true);
+        balls_[other].set(Ball::crowded, true);
         until = std::min(host.unchanged_until(number, other), balls_[other].own);
       }
       ++work.certificates;
