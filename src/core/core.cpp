@@ -79,7 +79,7 @@ void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
   settling_.assign(changed.begin(), changed.end());
   place_arrivals(changed, host);
   for (const std::uint32_t number : changed) {
-    compute_own(number, host);
+    set_own(number, stays(number), host);
     // It may be elsewhere. Others find it by its safe region.
     if (balls_[number].is(Ball::at_wall) || balls_[number].own > balls_.time()) continue;
     move_region(number, host);
@@ -166,7 +166,7 @@ Result<void> Core::handle_own(std::uint32_t number, Host& host) {
   if (!balls_[number].is(Ball::at_wall)) return leave_region(number, host);
   // The host looks as far ahead as the ball stays in its safe region.
   const double own = balls_[number].own;
-  compute_stay(number);
+  set_stay(number, stays(number));
   ScopeGuard again([&] {
     balls_[number].own = own;
     balls_[number].set(Ball::at_wall, true);

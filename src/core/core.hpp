@@ -193,9 +193,9 @@ class Core {
   Box extent_of(std::span<const std::uint32_t> numbers) const;
 
   // own_time.cpp
-  void compute_own(std::uint32_t number, Host& host);
-  void compute_own_later(std::uint32_t number, Host& host);
-  void compute_stay(std::uint32_t number);
+  void set_own(std::uint32_t number, double stay, Host& host);
+  void set_own_later(std::uint32_t number, double stay, Host& host);
+  void set_stay(std::uint32_t number, double stay);
   void limit_own(std::uint32_t number, double walls_until);
   double stays(std::uint32_t number) const;
   double clear_of_walls(std::uint32_t number, Host& host) const;

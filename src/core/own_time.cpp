@@ -10,24 +10,24 @@
 
 namespace kinesphere::core {
 
-/// Computes Ball::own.
-void Core::compute_own(std::uint32_t number, Host& host) {
-  compute_stay(number);
+/// Computes Ball::own, given how long the ball stays in its safe region.
+void Core::set_own(std::uint32_t number, double stay, Host& host) {
+  set_stay(number, stay);
   limit_own(number, clear_of_walls(number, host));
 }
 
-/// Computes Ball::own, later than now. Where there is too little room for the least step of time, nothing
-/// better can be said.
-void Core::compute_own_later(std::uint32_t number, Host& host) {
-  compute_own(number, host);
+/// Computes Ball::own as set_own() does, later than now. Where there is too little room for the least step of
+/// time, nothing better can be said.
+void Core::set_own_later(std::uint32_t number, double stay, Host& host) {
+  set_own(number, stay, host);
   Ball& ball = balls_[number];
   if (!ball.is(Ball::at_wall)) ball.own = std::max(ball.own, just_after(balls_.time()));
 }
 
 /// Computes Ball::own as if there were no walls.
-void Core::compute_stay(std::uint32_t number) {
+void Core::set_stay(std::uint32_t number, double stay) {
   Ball& ball = balls_[number];
-  ball.own = std::max(rounding::sum_down(balls_.time(), stays(number)), balls_.time());
+  ball.own = std::max(rounding::sum_down(balls_.time(), stay), balls_.time());
   ball.set(Ball::at_wall, false);
 }
 

@@ -59,7 +59,8 @@ double Core::widest_region(const Ball& ball) const {
 Result<void> Core::leave_region(std::uint32_t number, Host& host) {
   Ball& ball = balls_[number];
   // The bound may be tighter than when `own` was computed.
-  if (stays(number) <= stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time())) {
+  const double stay = stays(number);
+  if (stay <= stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time())) {
     const double radius = double{ball.region} * unit_;
     const bool is_wide = balls_.growth(number) > growth_worth_a_report * radius;
     const bool is_far = norm_one(balls_.position(number) - ball.position) > longest_flight * radius;
@@ -69,7 +70,7 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
     move_region(number, host);
     note_change(number);
   } else {
-    compute_own_later(number, host);
+    set_own_later(number, stay, host);
   }
   schedule(number, host);
   return {};
@@ -83,7 +84,7 @@ void Core::move_region(std::uint32_t number, Host& host) {
   const Ball& ball = balls_[number];
   if (balls_.periods().any) host.note_image(number, region_centre(ball));
   cells_.start_search(ball, reach(ball), search_);
-  compute_own_later(number, host);
+  set_own_later(number, stays(number), host);
   compare_neighbours(number, host);
   cells_.leave(balls_, number);
   cells_.enter(balls_, number, reach(ball));
