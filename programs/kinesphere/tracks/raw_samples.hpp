@@ -55,9 +55,9 @@ class RawTrackSet {
   /// Throws ProgramError naming a wrong option.
   RawTrackSet(const TrackOptions& options, bool several_files);
 
-  /// Adds a file: a table, a file that is converted to one, or messages. Throws ProgramError naming file,
+  /// Adds a file: a table, a recording of another kind, or messages. Throws ProgramError naming file,
   /// line and column of an error. Damaged messages, and those without a position, are counted.
-  void read(std::string text, const std::string& file);
+  void read(const std::string& text, const std::string& file);
   /// Returns the scale of the times. Precondition: all files have been read. Throws ProgramError if the frame
   /// numbers do not fit the format.
   TimeScale time_scale() const;
@@ -84,7 +84,8 @@ class RawTrackSet {
  private:
   class FileReader;
 
-  StreamFormat format_of(std::string_view text) const;
+  StreamFormat format_of(std::string_view text, const std::string& file) const;
+  static void refuse_other_kinds(std::string_view text, const std::string& file);
   /// Notes the body of a file. Throws ProgramError if another file has the same.
   void add_file_id(const std::string& id);
   /// Makes clock times of the last file go on behind midnight. Throws ProgramError naming a row of which the

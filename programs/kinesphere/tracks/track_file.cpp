@@ -370,7 +370,7 @@ TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options)
   std::vector<std::string> files;
   for (NamedText& text : texts) {
     files.push_back(text.file);
-    raw.read(std::move(text.text), text.file);
+    raw.read(text.text, text.file);
   }
   raw.ask_about_identities();
   ask_about_row_numbers(raw);

@@ -11,9 +11,9 @@
 #include "base/ascii_text.hpp"
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
-#include "formats/converted/converted_table.hpp"
-#include "formats/converted/file_kind.hpp"
 #include "formats/nmea/nmea_line.hpp"
+#include "formats/recordings/file_kind.hpp"
+#include "formats/recordings/recording_kinds.hpp"
 #include "watch/class_rules.hpp"
 #include "watch/file_source.hpp"
 #include "watch/nats/nats_streams.hpp"
@@ -109,7 +109,9 @@ std::optional<StreamFormat> format_by(std::string_view beginning, const WatchOpt
   // Noise of a line may have zero bytes, too.
   const bool has_zeros = beginning.find('\0') != std::string_view::npos;
   if (has_zeros && (!other_kind.empty() || !format)) refuse(other_kind.empty() ? "not text" : other_kind);
-  if (const std::string_view recording = kind_of_recording(beginning); !recording.empty()) {
+  const RecordingKind* const recording = recording_kind_of(beginning, options.choices.hints);
+  const bool are_lines = recording != nullptr && recording->read == read_json_lines;
+  if (recording != nullptr && !are_lines) {
     // Of a service that is asked again and again, each list is read when it comes.
     const bool is_pipe_of_now =
         source.nature() == ReportSource::Nature::unknown && options.clock == "arrival";
@@ -117,12 +119,12 @@ std::optional<StreamFormat> format_by(std::string_view beginning, const WatchOpt
     if (!is_live) return StreamFormat::recording;
     // Sentences of AIS may follow those of a receiver of GPS.
     if (format != StreamFormat::nmea)
-      refuse(fmt::format("{}, which is read as a whole: from a file, or a pipe that ends", recording));
+      refuse(fmt::format("{}, which is read as a whole: from a file, or a pipe that ends", recording->name));
   }
   // An option that names columns implies a table.
   const bool has_columns = !options.choices.hints.columns.empty();
   if (format && !is_table(*format) && !has_columns) return format;
-  if (are_json_lines(beginning)) return StreamFormat::json;
+  if (are_lines) return StreamFormat::json;
   if (has_columns) return format == StreamFormat::ais ? *format : StreamFormat::csv;
   // Some other files look like tables.
   if (!other_kind.empty() && (format || is_enough)) refuse(other_kind);

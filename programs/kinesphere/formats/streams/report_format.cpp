@@ -11,7 +11,6 @@
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/converted/converted_table.hpp"
 #include "formats/nmea/nmea_line.hpp"
 #include "formats/tables/presets.hpp"
 

@@ -68,7 +68,6 @@ struct FormatChoices {
   /// The whole file is read: each row of a table has as many fields as the first, and what is asked about is
   /// never only a damaged line. Reports of tables then have no velocity, errors and kind.
   bool is_recording = false;
-  std::string title;  ///< of a converted table: its format
   /// nmea: if not empty, sentences RMC are reports of a track of this id, in place of VDO.
   std::string own_by_gps{};
   /// If not empty, asked between the rows of a recording; true ends it there.

@@ -94,6 +94,8 @@ enum class Passed {
 class ReportSink {
  public:
   virtual ~ReportSink() = default;
+  /// Receives the line of the row that is read next, where one record has many rows.
+  virtual void begin_row(std::size_t /*line*/) {}
   virtual void take(const SourceReport& report) = 0;
   /// Receives a row of a table that lacks its time or position.
   virtual void take_incomplete(const SourceReport&) { pass_over(Passed::no_position); }

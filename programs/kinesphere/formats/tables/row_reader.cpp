@@ -133,7 +133,7 @@ void RowReader::check_likelihood() const {
 }
 
 std::string RowReader::wrong_text(std::size_t column, std::string_view expected) const {
-  const std::string where = columns_.is_converted && column < head_.names.size()
+  const std::string where = columns_.has_named_fields && column < head_.names.size()
                                 ? fmt::format("'{}'", head_.names[column])
                                 : fmt::format("column {}", column + 1);
   return fmt::format("expected {} ({}), but got {}", expected, where, shown_field(field(column)));

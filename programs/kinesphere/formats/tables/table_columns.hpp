@@ -37,8 +37,8 @@ struct Column {
 };
 
 struct TableColumns {
-  std::string format;         ///< recognised format
-  bool is_converted = false;  ///< the file is no table: messages name its fields instead of columns
+  std::string format;             ///< recognised format
+  bool has_named_fields = false;  ///< the file is no table: messages name fields instead of columns
   std::array<std::optional<Column>, quantity_count> of{};
   const std::optional<Column>& operator[](Quantity quantity) const {
     return of[static_cast<std::size_t>(quantity)];
