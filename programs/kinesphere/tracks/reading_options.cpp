@@ -54,9 +54,9 @@ std::string_view name_of(Outside outside) {
 
 CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& files, TrackOptions& options) {
   command.footer(
-      "Tables with separators ; , tab or blanks, quoted or not, with the usual column names: id (mmsi,\n"
-      "track_id, agent, ...), time (t, timestamp, datetime, ...) or frame, x y z or lon lat. GPX, KML, logs\n"
-      "of NMEA and IGC, JSON, XYZ, GRO, PDB, dumps of LAMMPS, motion capture, DeepLabCut, Vissim, pNEUMA,\n"
+      "Tables with separators ; , tab or blanks, quoted or not, with the usual column names: id (mmsi, "
+      "track_id, agent, ...), time (t, timestamp, datetime, ...) or frame, x y z or lon lat. GPX, KML, logs "
+      "of NMEA and IGC, JSON, XYZ, GRO, PDB, dumps of LAMMPS, motion capture, DeepLabCut, Vissim, pNEUMA, "
       "sentences of AIS, messages of ADS-B. docs/tables.md explains each kind of file, and docs/tracks.md "
       "every option.");
   CLI::Option* const file_option =

@@ -12,6 +12,8 @@
 #include <memory>
 #include <utility>
 
+#include "base/help_text.hpp"
+#include "base/input_file.hpp"
 #include "base/number_text.hpp"
 #include "base/output_paths.hpp"
 #include "base/program_error.hpp"
@@ -218,46 +220,64 @@ class TracksFiles {
 
 }  // namespace
 
+namespace {
+
+void add_closeness_options(CLI::App& command, TracksOptions& options) {
+  constexpr const char* group = "How close";
+  command
+      .add_option("--distance", options.distance,
+                  "How close counts as an approach: a number, and perhaps a unit, such as 500m, 5NM, 2um")
+      ->type_name("LENGTH")
+      ->group(group);
+  command
+      .add_option("--separation", options.separation,
+                  "Instead of --distance: cylinder:HORIZONTAL:VERTICAL, such as cylinder:5NM:1000ft, or "
+                  "sphere:LENGTH")
+      ->type_name("SHAPE")
+      ->group(group);
+  command
+      .add_option("--tolerance", options.tolerance,
+                  "Tolerance of that distance; when not given a millionth of it, or 1e-12 of the extent")
+      ->check(finite_number())
+      ->group(group);
+  command
+      .add_flag(
+          "--sizes", options.reading.hints.sizes,
+          "Distances are between discs (in 3D spheres) around bodies of the columns length and width, and "
+          "--pairs has times to collision and post-encroachment times")
+      ->group(group);
+}
+
+void add_output_options(CLI::App& command, TracksOptions& options) {
+  constexpr const char* group = "What comes out";
+  const auto add_file = [&](const char* name, std::string& file, const char* description) {
+    command.add_option(name, file, description)->type_name("FILE")->group(group);
+  };
+  add_file("--contacts", options.contacts,
+           "Write every approach to this .csv or .jsonl file or, where positions are on the earth, .geojson, "
+           ".gpx or .kml file");
+  add_file("--minima", options.minima,
+           "Write every local minimum of the distance during approaches to this .csv or .jsonl file");
+  add_file("--pairs", options.pairs, "Write a line for each pair of ids to this .csv or .jsonl file");
+  add_file("--plot", options.plot, "Draw a map and the closest approaches into this .svg file");
+  add_file("--summary", options.summary, "Write the summary to this file, as JSON");
+  command.add_flag("--verify", options.verify, "Compare with the exact oracle on the same curves")
+      ->group(group);
+  command.add_flag("--quiet", options.quiet, "No progress bar and no summary")->group(group);
+}
+
+}  // namespace
+
 CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
   CLI::App* command = program.add_subcommand("tracks", "Find every approach in a recording of real motion");
-  command
-      ->add_option("--distance", options.distance,
-                   "How close counts as an approach: a number, and perhaps a unit, such as 500m, 5NM, 2um")
-      ->type_name("LENGTH");
-  command
-      ->add_option("--separation", options.separation,
-                   "Instead of --distance: cylinder:HORIZONTAL:VERTICAL, such as cylinder:5NM:1000ft, or "
-                   "sphere:LENGTH")
-      ->type_name("SHAPE");
-  command
-      ->add_option("--tolerance", options.tolerance,
-                   "Tolerance of that distance; when not given a millionth of it, or 1e-12 of the extent")
-      ->check(finite_number());
-  command
-      ->add_option("--contacts", options.contacts,
-                   "Write every approach to this .csv or .jsonl file or, where positions are on the earth, "
-                   ".geojson, .gpx or .kml file")
-      ->type_name("FILE");
-  command
-      ->add_option("--minima", options.minima,
-                   "Write every local minimum of the distance during approaches to this .csv or .jsonl file")
-      ->type_name("FILE");
-  command
-      ->add_option("--pairs", options.pairs, "Write a line for each pair of ids to this .csv or .jsonl file")
-      ->type_name("FILE");
-  command->add_option("--plot", options.plot, "Draw a map and the closest approaches into this .svg file")
-      ->type_name("FILE");
-  command->add_option("--summary", options.summary, "Write the summary to this file, as JSON")
-      ->type_name("FILE");
+  add_closeness_options(*command, options);
+  add_choice_options(*command, options.choice);
+  add_output_options(*command, options);
   add_reading_options(*command, options.files, options.reading);
   add_motion_options(*command, options.reading);
-  command->add_flag(
-      "--sizes", options.reading.hints.sizes,
-      "Distances are between discs (in 3D spheres) around bodies of the columns length and width, and "
-      "--pairs has times to collision and post-encroachment times");
-  add_choice_options(*command, options.choice);
-  command->add_flag("--verify", options.verify, "Compare with the exact oracle on the same curves");
-  command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
+  add_examples(*command, {"kinesphere tracks walk.csv --distance 0.5m --contacts near.csv",
+                          "kinesphere tracks flights.csv --separation cylinder:5NM:1000ft",
+                          "kinesphere tracks cars.csv --distance 2 --sizes --pairs pairs.csv"});
   return command;
 }
 
@@ -329,6 +349,7 @@ void add_result(Summary& summary, const TracksOptions& options, const Closeness&
 }  // namespace
 
 int tracks(const TracksOptions& options) {
+  for (const std::string& file : options.files) require_input(file);
   const Closeness closeness = closeness_of(options.distance, options.separation);
   TracksFiles files(options);
   const TrackSet track_set = read_tracks(options.files, reading_for(closeness, options.reading));
