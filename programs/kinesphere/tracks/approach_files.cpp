@@ -10,6 +10,7 @@
 
 #include "base/program_error.hpp"
 #include "number/infinity.hpp"
+#include "simulation/tracks/rectangle_conflicts.hpp"
 #include "tracks/sample_steps.hpp"
 #include "tracks/track_cells.hpp"
 #include "tracks/track_scene.hpp"
@@ -130,9 +131,27 @@ void ApproachFile::commit() {
   if (map_) map_->commit();
 }
 
+namespace {
+
+/// Adds how near to a collision two rectangles came during an approach.
+void add_conflict(PairSummary& pair, const Approach& approach, const Motion& motion,
+                  const std::vector<RectangleBody>& shapes) {
+  const CollisionCourse course = collision_course(motion, approach, shapes);
+  if (course.least.seconds < pair.to_collision.seconds) pair.to_collision = course.least;
+  if (course.deceleration > pair.deceleration) {
+    pair.deceleration = course.deceleration;
+    pair.time_of_deceleration = course.at;
+  }
+  const PostEncroachment entry = post_encroachment(motion, approach, shapes);
+  if (entry.seconds < pair.encroachment.seconds) pair.encroachment = entry;
+}
+
+}  // namespace
+
 std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const TrackSet& track_set,
                                   const Motion& motion) {
   const std::vector<double> radii = radii_of(track_set);
+  const std::vector<RectangleBody> shapes = shapes_of(track_set);
   std::vector<PairSummary> pairs;
   std::map<std::pair<std::string, std::string>, std::size_t> known;
   for (const Approach& approach : approaches) {
@@ -147,7 +166,8 @@ std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const
     PairSummary& pair = pairs[at->second];
     ++pair.approaches;
     pair.duration += approach.end - approach.begin;
-    if (track_set.has_sizes) {
+    if (track_set.has_rectangles) add_conflict(pair, approach, motion, shapes);
+    if (track_set.has_sizes && !track_set.has_rectangles) {
       const LeastTimeToCollision least = least_time_to_collision(motion, approach, radii);
       if (least.seconds < pair.to_collision.seconds) pair.to_collision = least;
       const PostEncroachment entry = post_encroachment(motion, approach, radii);
@@ -174,6 +194,9 @@ void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const 
   if (track_set.has_sizes)
     columns.insert(columns.end(), {with_unit("least_time_to_collision", Measure::time), "time_of_that",
                                    with_unit("post_encroachment_time", Measure::time), "time_of_entry"});
+  if (track_set.has_rectangles)
+    columns.insert(columns.end(),
+                   {with_unit("deceleration_to_avoid_crash", Measure::acceleration), "time_of_deceleration"});
   table.begin(std::move(columns));
   for (const PairSummary& pair : pairs) {
     std::vector<Cell> cells{
@@ -189,6 +212,9 @@ void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const 
       add(pair.to_collision.seconds, pair.to_collision.at);
       add(pair.encroachment.seconds, pair.encroachment.at);
     }
+    // None is needed, or none helps any more.
+    if (track_set.has_rectangles)
+      add(pair.deceleration > 0.0 ? pair.deceleration : infinity, pair.time_of_deceleration);
     table.write(cells);
   }
 }

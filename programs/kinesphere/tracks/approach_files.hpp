@@ -48,6 +48,8 @@ struct PairSummary {
   ClosestApproach closest{};  ///< closest of all approaches
   LeastTimeToCollision to_collision{};
   PostEncroachment encroachment{0.0, infinity};
+  double deceleration = 0.0;  ///< that avoids a crash (rectangles alone); 0 if none is needed
+  double time_of_deceleration = 0.0;
 };
 
 /// Returns the pairs, the one with the closest approach first. Their times to collision and post-encroachment

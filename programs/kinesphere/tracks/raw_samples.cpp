@@ -92,9 +92,11 @@ class RawTrackSet::FileReader final : public ReportSink {
       if (is_on_ground) position.z = missing_height;
       has_heights_ = has_heights_ || report.may_have_height;
       track.radius = std::max(track.radius, report.extent);
+      track.length = std::max(track.length, report.written.length);
+      track.width = std::max(track.width, report.written.width);
       add_scenes(*report.row, time.time);
     }
-    track.samples.push_back({time.time, position, place_, is_on_ground});
+    track.samples.push_back({time.time, position, place_, is_on_ground, report.written.heading});
   }
   void take_incomplete(const SourceReport& report) override {
     count_row();

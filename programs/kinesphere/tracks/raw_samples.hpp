@@ -28,14 +28,16 @@ struct RawSample {
   FileTime time;
   Vec3 position;  ///< in the units of the file; z is NaN where only others have a height
   Place place;
-  bool on_ground = false;  ///< without a height
+  bool on_ground = false;           ///< without a height
+  std::optional<double> heading{};  ///< as the file has it
 };
 
 /// The samples of one id.
 struct RawTrack {
   std::string id;
-  std::vector<RawSample> samples;  ///< in the order of the rows
-  double radius = 0.0;             ///< of a disc that covers the body (metres); 0 where no size is known
+  std::vector<RawSample> samples;    ///< in the order of the rows
+  double radius = 0.0;               ///< of a disc that covers the body (metres); 0 where no size is known
+  double length = 0.0, width = 0.0;  ///< the largest of all rows (metres)
   std::size_t forward = 0, backward = 0;  ///< rows that are later, or earlier, than the row before
   Place first_backward;                   ///< row
   bool is_joined = false;                 ///< --same names it, so that its rows may be in any order

@@ -103,6 +103,11 @@ void add_motion_options(CLI::App& command, TrackOptions& options) {
       .add_flag("--count-handovers", options.counts_handovers,
                 "An id that begins where and when another one ends is another body, and comes near it")
       ->group(input_group);
+  add_choice<std::optional<HeadingFrom>>(
+      command, "--heading", options.heading_from,
+      {{"motion", HeadingFrom::motion}, {"x-axis", HeadingFrom::x_axis}, {"compass", HeadingFrom::north}}, "",
+      "With --sizes: what headings count from, counterclockwise from the x axis or "
+      "clockwise from north; motion: bodies point where they go");
   add_choice(command, "--outside", options.outside,
              {{"vanish", Outside::vanish}, {"stay", Outside::stay}, {"go-on", Outside::go_on}}, "vanish",
              "Before its first and after its last sample a body is not there, stays at that sample, or goes "

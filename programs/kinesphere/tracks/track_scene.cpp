@@ -208,6 +208,12 @@ std::vector<double> radii_of(const TrackSet& track_set) {
   return radii;
 }
 
+std::vector<RectangleBody> shapes_of(const TrackSet& track_set) {
+  std::vector<RectangleBody> shapes;
+  for (const RecordedTrack& track : track_set.tracks) shapes.push_back(track.shape);
+  return shapes;
+}
+
 RecordedTracks splines_through(const TrackSet& track_set) {
   std::vector<RestingEnds> ends;
   for (const RecordedTrack& track : track_set.tracks) ends.push_back(track.rests);

@@ -26,6 +26,7 @@
 #include "simulation/oracle/comparison.hpp"
 #include "simulation/tracks/approaches.hpp"
 #include "simulation/tracks/cylinder_approaches.hpp"
+#include "simulation/tracks/rectangle_approaches.hpp"
 #include "tracks/approach_files.hpp"
 #include "tracks/approach_plot.hpp"
 #include "tracks/closeness.hpp"
@@ -194,9 +195,12 @@ class TracksFiles {
   void write(const TrackSet& track_set, const Scene& scene, const std::vector<Approach>& approaches,
              double distance) {
     if (contacts_) contacts_->write(approaches, track_set);
-    if (minima_)
-      write_minima(*minima_, minima_in(*scene.motion, approaches, radii_of(track_set)), approaches,
-                   track_set);
+    if (minima_) {
+      const auto minima = track_set.has_rectangles
+                              ? minima_in(*scene.motion, approaches, shapes_of(track_set))
+                              : minima_in(*scene.motion, approaches, radii_of(track_set));
+      write_minima(*minima_, minima, approaches, track_set);
+    }
     if (pairs_) write_pairs(*pairs_, pairs_in(approaches, track_set, *scene.motion), track_set);
     if (plot_) plot_->write(plot_of(track_set, scene, approaches, distance));
   }
@@ -243,8 +247,9 @@ void add_closeness_options(CLI::App& command, TracksOptions& options) {
   command
       .add_flag(
           "--sizes", options.reading.hints.sizes,
-          "Distances are between discs (in 3D spheres) around bodies of the columns length and width, and "
-          "--pairs has times to collision and post-encroachment times")
+          "Distances are between rectangles (in 3D spheres) of the columns length and width, which turn as "
+          "their heading or their motion says; --pairs has times to collision, post-encroachment times and "
+          "decelerations that avoid a crash")
       ->group(group);
 }
 
@@ -318,10 +323,20 @@ TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const Tr
                                            .vertical = *closeness.vertical,
                                            .tolerance = scene.scene.world.contact_tolerance},
                                           *scene.scene.motion, result.approaches);
+  if (track_set.has_rectangles)
+    result.approaches =
+        approaches_of_rectangles(closeness.distance, scene.scene.world.contact_tolerance, *scene.scene.motion,
+                                 shapes_of(track_set), result.approaches);
   result.of_one_body = leave_out_handovers(result.approaches, track_set);
   const bool found_none = result.approaches.empty();
   result.left_out = filter.apply(result.approaches);
-  find_closest(*scene.scene.motion, result.approaches, radii_of(track_set));
+  // Finer steps take more than they tell: what is found is refined.
+  constexpr double part_of_distance = 1e-4;
+  if (track_set.has_rectangles)
+    find_closest(*scene.scene.motion, result.approaches, shapes_of(track_set),
+                 part_of_distance * closeness.distance);
+  else
+    find_closest(*scene.scene.motion, result.approaches, radii_of(track_set));
   if (result.of_one_body > 0)
     print_message("kinesphere: warning: {}\n", warning_of_handovers(track_set, result.of_one_body));
   for (const std::string& warning : warnings_of(result.coverage, track_set, found_none))

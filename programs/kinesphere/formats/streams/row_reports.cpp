@@ -57,7 +57,8 @@ class ReportsOfRows final : public RowReports {
   /// A short stream is asked about at its end.
   void finish() const override {
     if (choices_.is_recording && !reader_ && recording_ != nullptr)
-      throw UnusableStream(fmt::format("expected positions, but this file ({}) has none", recording_->format));
+      throw UnusableStream(
+          fmt::format("expected positions, but this file ({}) has none", recording_->format));
     if (choices_.is_recording && !reader_)
       throw UnusableStream("expected rows of numbers, but found none" + first_text());
     if (!reader_) check_header();
@@ -216,7 +217,7 @@ class ReportsOfRows final : public RowReports {
     report.has_height = reader_->has_height();
     report.may_have_height = columns.z().has_value();
     report.on_ground = is_on_ground();
-    report.extent = radius();
+    read_size(report);
     if (choices_.is_recording) return sink.take(report);
     read_velocity(report);
     report.position_error = error(Quantity::position_error);
@@ -242,10 +243,17 @@ class ReportsOfRows final : public RowReports {
     if (!is_late) last_clock_ = time.whole;
     time.whole += day * (midnights_ - (is_late && midnights_ > 0 ? 1 : 0));
   }
-  /// Returns half the diagonal of length and width; 0 if one of them is not known, which is also said by 0.
-  double radius() {
+  /// A length or width of 0 says that it is not known.
+  void read_size(SourceReport& report) {
+    if (!choices_.hints.sizes) return;
     const auto length = number(Quantity::length), width = number(Quantity::width);
-    return length && width && *length > 0.0 && *width > 0.0 ? std::hypot(*length, *width) / 2 : 0.0;
+    const TableColumns& columns = reader_->columns();
+    report.written.heading =
+        reader_->number(columns[Quantity::heading] ? Quantity::heading : Quantity::course);
+    if (!length || !width || !(*length > 0.0 && *width > 0.0)) return;
+    report.written.length = *length;
+    report.written.width = *width;
+    report.extent = std::hypot(*length, *width) / 2;
   }
 
   /// Gathers the first reports, and asks before the last of them is taken.

@@ -75,25 +75,33 @@ constexpr Preset presets[] = {
      17},
     {"mot", "MOT (left and top of boxes)", "id=2,frame=1,x=3,y=4", "", 0.0, {}, "7 != 0", {}, 7},
     // Road traffic. Positions of highD are corners of boxes.
-    {"highd", "highD (upper left corners)",
-     "id=id,frame=frame,x=x:m,y=y:m,vx?=xVelocity:m/s,vy?=yVelocity:m/s",
-     "frame,id,x,y,width,height,xVelocity,yVelocity", 25.0},
+    {.name = "highd",
+     .title = "highD (upper left corners)",
+     .columns =
+         "id=id,frame=frame,x=x:m,y=y:m,vx?=xVelocity:m/s,vy?=yVelocity:m/s,length?=width:m,width?=height:m",
+     .header = "frame,id,x,y,width,height,xVelocity,yVelocity",
+     .frame_rate = 25.0,
+     .place = TableColumns::Place::upper_left},
     {"ind", "inD, rounD, exiD",
      "id=trackId,frame=frame,x=xCenter:m,y=yCenter:m,vx?=xVelocity:m/s,vy?=yVelocity:m/"
-     "s,length?=length:m,width?=width:m",
+     "s,length?=length:m,width?=width:m,heading?=heading:deg",
      "recordingId,trackId,frame,xCenter,yCenter", 25.0},
     {"ngsim", "NGSIM", "id=Vehicle_ID,time=Global_Time:ms,x=Local_X:ft,y=Local_Y:ft",
      "Vehicle_ID,Global_Time,Local_X,Local_Y"},
     {"argoverse", "Argoverse", "id=TRACK_ID,time=TIMESTAMP:s,x=X:m,y=Y:m",
      "TIMESTAMP,TRACK_ID,OBJECT_TYPE,X,Y"},
     {"interaction", "INTERACTION",
-     "id=track_id,time=timestamp_ms:ms,x=x:m,y=y:m,vx?=vx:m/s,vy?=vy:m/s,length?=length:m,width?=width:m",
+     "id=track_id,time=timestamp_ms:ms,x=x:m,y=y:m,vx?=vx:m/s,vy?=vy:m/"
+     "s,length?=length:m,width?=width:m,heading?=psi_rad:rad",
      "track_id,frame_id,timestamp_ms,agent_type,x,y"},
     // Its positions may be longitudes and latitudes.
-    {"sumo", "SUMO FCD",
-     "id=vehicle_id,time=timestep_time:s,x=vehicle_x,y=vehicle_y,z?=vehicle_z:m,speed?=vehicle_speed,"
-     "course?=vehicle_angle",
-     "timestep_time,vehicle_id,vehicle_x,vehicle_y"},
+    {.name = "sumo",
+     .title = "SUMO FCD",
+     .columns =
+         "id=vehicle_id,time=timestep_time:s,x=vehicle_x,y=vehicle_y,z?=vehicle_z:m,speed?=vehicle_speed,"
+         "course?=vehicle_angle,length?=vehicle_length:m,width?=vehicle_width:m",
+     .header = "timestep_time,vehicle_id,vehicle_x,vehicle_y",
+     .place = TableColumns::Place::front},
     // Aircraft and vessels.
     {"opensky", "OpenSky state vectors (barometric altitude)",
      "id=icao24,time=time:s,lon=lon,lat=lat,z=baroaltitude:m,speed?=velocity:m/"

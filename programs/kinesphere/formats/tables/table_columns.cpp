@@ -235,7 +235,8 @@ void require_columns(const TableHead& head, const ColumnHints& hints, const Tabl
                       hints.columns));
     throw ProgramError(missing_columns_text(head, columns));
   }
-  if (has(Quantity::vx) != has(Quantity::vy) || (has(Quantity::course) && !has(Quantity::speed)) ||
+  if (has(Quantity::vx) != has(Quantity::vy) ||
+      (has(Quantity::course) && !has(Quantity::speed) && !hints.sizes) ||
       (has(Quantity::vx) && has(Quantity::speed)))
     throw ProgramError(
         fmt::format("{}: expected either vx and vy or speed and course, or neither: say which with --columns",
