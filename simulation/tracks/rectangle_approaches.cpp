@@ -63,6 +63,7 @@ class LeastGap {
     for (const Piece& piece : pair.pieces()) divide(piece, piece.begin, piece.end);
     refine();
   }
+  double least() const { return least_; }
   ClosestApproach closest() const { return pair_.minimum(*piece_, time_).closest; }
 
  private:
@@ -159,10 +160,11 @@ std::vector<DistanceMinimum> minima_of(const RectanglePair& pair, const Approach
 
 std::vector<Approach> approaches_of_rectangles(double distance, double tolerance, const Motion& motion,
                                                const std::vector<RectangleBody>& bodies,
-                                               const std::vector<Approach>& enclosing) {
+                                               const std::vector<Approach>& enclosing,
+                                               const PositionErrors& errors) {
   std::vector<Approach> approaches;
   for (const Approach& disc : enclosing) {
-    const RectanglePair pair(motion, disc, bodies);
+    const RectanglePair pair(motion, disc, bodies, errors, RectanglePair::Errors::nearer);
     const CloseSpans close(pair, distance, tolerance);
     for (const CloseSpan& span : close.found()) {
       Approach& approach = approaches.emplace_back(disc);
@@ -170,6 +172,9 @@ std::vector<Approach> approaches_of_rectangles(double distance, double tolerance
       approach.end = span.end;
       approach.begins_with_track = disc.begins_with_track && span.begin == disc.begin;
       approach.ends_with_track = disc.ends_with_track && span.end == disc.end;
+      if (!errors.any()) continue;
+      const RectanglePair farther(motion, approach, bodies, errors, RectanglePair::Errors::farther);
+      approach.is_certain = LeastGap(farther, tolerance).least() <= distance;
     }
   }
   std::ranges::stable_sort(approaches, {}, &Approach::begin);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "simulation/tracks/approaches.hpp"
+#include "simulation/tracks/position_errors.hpp"
 #include "simulation/tracks/rectangles.hpp"
 
 namespace kinesphere {
@@ -12,11 +13,14 @@ namespace kinesphere {
 /// of discs that cover them. While one holds, the two are not farther apart than the distance and half the
 /// tolerance, and at all other times not nearer than the distance less half the tolerance; both are lengths
 /// above 0. A bound on the speed of their points
-/// decides about parts of time, which are divided until it does, or until that is the tolerance. Cost: up to
-/// some ten thousand distances for each approach.
+/// decides about parts of time, which are divided until it does, or until that is the tolerance. With errors
+/// an approach is where the two may be within the distance, and is certain if they are at some time of it
+/// however they are off; `enclosing` has to hold all of that. Cost: up to some ten thousand distances for
+/// each approach.
 std::vector<Approach> approaches_of_rectangles(double distance, double tolerance, const Motion& motion,
                                                const std::vector<RectangleBody>& bodies,
-                                               const std::vector<Approach>& enclosing);
+                                               const std::vector<Approach>& enclosing,
+                                               const PositionErrors& errors = {});
 
 /// Sets `closest` of each approach. The distance is the least one to within `tolerance` (a length above 0).
 void find_closest(const Motion& motion, std::vector<Approach>& approaches,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulation/tracks/approaches.hpp"
+#include "simulation/tracks/position_errors.hpp"
 #include "simulation/tracks/rectangles.hpp"
 
 namespace kinesphere {
@@ -17,12 +18,16 @@ class RectanglePair {
     RectanglePiece first, second;
   };
 
-  RectanglePair(const Motion& motion, const Approach& approach, const std::vector<RectangleBody>& bodies);
+  /// How much of the errors of both positions counts.
+  enum class Errors { none, nearer, farther };
+
+  /// `errors` must outlive it.
+  RectanglePair(const Motion& motion, const Approach& approach, const std::vector<RectangleBody>& bodies,
+                const PositionErrors& errors = {}, Errors counted = Errors::none);
 
   const std::vector<Piece>& pieces() const { return pieces_; }
-  double gap(const Piece& piece, double t) const {
-    return gap_between(first_, piece.first.pose(t), second_, piece.second.pose(t));
-  }
+  /// Returns the distance, less or more the errors.
+  double gap(const Piece& piece, double t) const;
   double time_to_touch(const Piece& piece, double t) const {
     return kinesphere::time_to_touch(first_, piece.first.pose(t), second_, piece.second.pose(t));
   }
@@ -59,6 +64,9 @@ class RectanglePair {
 
  private:
   const RectangleBody &first_, &second_;
+  std::uint32_t first_track_, second_track_;
+  const PositionErrors* errors_;  ///< null for none
+  double sign_;                   ///< with which the errors count
   std::vector<Piece> pieces_;
 };
 

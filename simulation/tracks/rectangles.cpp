@@ -92,8 +92,9 @@ double RectangleBody::heading_at(double t) const {
 
 double gap_between(const RectangleBody& first, const RectanglePose& at, const RectangleBody& second,
                    const RectanglePose& other) {
-  const Vec3 way = flat(other.position - at.position);
   const double radii = first.radius + second.radius;
+  if (first.length == 0.0 && second.length == 0.0) return norm(other.position - at.position) - radii;
+  const Vec3 way = flat(other.position - at.position);
   return gap_of(way, HalfAxes(first, at.heading), HalfAxes(second, other.heading)) - radii;
 }
 

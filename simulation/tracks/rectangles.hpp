@@ -8,10 +8,10 @@
 
 namespace kinesphere {
 
-/// A rectangle whose middle follows a track; or a disc, where its heading is not known, or a point.
+/// A rectangle whose middle follows a track; or a sphere, as a disc where a heading is not known, or a point.
 struct RectangleBody {
-  double length = 0.0, width = 0.0;  ///< along and across the heading; 0 for a disc
-  double radius = 0.0;               ///< of a disc; 0 for a rectangle
+  double length = 0.0, width = 0.0;  ///< along and across the heading; 0 for a sphere
+  double radius = 0.0;               ///< of a sphere; 0 for a rectangle
   /// Times and headings, in radians counterclockwise from the x axis, each less than half a turn from the one
   /// before. Between two times the body turns steadily, and before the first and after the last not at all.
   std::vector<double> times, headings;
@@ -22,7 +22,7 @@ struct RectangleBody {
   double heading_at(double t) const;
 };
 
-/// Where a body is, how it moves, and how it is turned. z counts as 0.
+/// Where a body is, how it moves, and how it is turned. Beside a rectangle z counts as 0.
 struct RectanglePose {
   Vec3 position, velocity;
   double heading = 0.0;

@@ -210,7 +210,8 @@ std::vector<double> radii_of(const TrackSet& track_set) {
 
 std::vector<RectangleBody> shapes_of(const TrackSet& track_set) {
   std::vector<RectangleBody> shapes;
-  for (const RecordedTrack& track : track_set.tracks) shapes.push_back(track.shape);
+  for (const RecordedTrack& track : track_set.tracks)
+    shapes.push_back(track_set.has_rectangles ? track.shape : RectangleBody{.radius = track.radius});
   return shapes;
 }
 

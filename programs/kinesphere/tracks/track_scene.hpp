@@ -57,7 +57,7 @@ struct TrackScene {
 /// Returns the radii of the bodies, by track.
 std::vector<double> radii_of(const TrackSet& track_set);
 
-/// Returns the shapes of the bodies, by track.
+/// Returns the shapes of the bodies, by track: rectangles, or spheres.
 std::vector<RectangleBody> shapes_of(const TrackSet& track_set);
 
 /// Returns smooth curves through the samples, one for each track. Throws ProgramError naming the id if a

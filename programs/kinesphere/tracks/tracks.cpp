@@ -31,6 +31,7 @@
 #include "tracks/approach_plot.hpp"
 #include "tracks/closeness.hpp"
 #include "tracks/coverage_summary.hpp"
+#include "tracks/error_option.hpp"
 #include "tracks/handovers.hpp"
 #include "tracks/implied_speeds.hpp"
 #include "tracks/minima_table.hpp"
@@ -44,13 +45,19 @@
 namespace kinesphere::program {
 namespace {
 
-void add_approaches(Summary& summary, const Closeness& closeness, const std::vector<Approach>& approaches) {
+void add_approaches(Summary& summary, const Closeness& closeness, const std::vector<Approach>& approaches,
+                    const std::string& errors) {
   const auto cut = std::count_if(approaches.begin(), approaches.end(),
                                  [](const Approach& approach) { return approach.ends_with_track; });
   summary.row("approaches", grouped(approaches.size()),
               fmt::format("{}, {} of them until a track's end", closeness.text,
                           grouped(static_cast<std::uint64_t>(cut))));
   if (approaches.empty()) return;
+  if (!errors.empty()) {
+    const auto certain = std::ranges::count_if(approaches, &Approach::is_certain);
+    summary.row("certain", grouped(static_cast<std::uint64_t>(certain)),
+                fmt::format("of the approaches; the others are possible, with positions off by {}", errors));
+  }
   const auto shorter = [](const Approach& a, const Approach& b) { return a.end - a.begin < b.end - b.begin; };
   const auto [shortest, longest] = std::minmax_element(approaches.begin(), approaches.end(), shorter);
   summary.row("duration", fmt::format("{} s to {} s", number(shortest->end - shortest->begin),
@@ -87,13 +94,13 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Tr
     const ClosestApproach& closest = approach.closest;
     const auto apart = steps_of(approach, track_set).longest();
     text += fmt::format(
-        "{:>24}  {}  {:>14}  {}{:>11}{} {:>8}  {} {}\n", track_set.times.text(closest.time, 6),
+        "{:>24}  {}  {:>14}  {}{:>11}{} {:>8}  {} {}{}\n", track_set.times.text(closest.time, 6),
         by_cylinder ? distances(number(horizontal_distance(closest)), number(vertical_distance(closest)))
                     : distances(number(closest.distance), ""),
         number(closest.relative_speed), approach.begins_with_track ? "<" : " ",
         number(approach.end - approach.begin), approach.ends_with_track ? "> " : "  ",
         apart ? number(*apart) : "-", marked(approach.first, closest.time),
-        marked(approach.second, closest.time));
+        marked(approach.second, closest.time), approach.is_certain ? "" : " (possible)");
   }
   text += "< close from a track's first sample (or --from) on, > until a track's last sample (or --until)\n";
   text += "samples: seconds from the sample before to the one after, 0 at a sample, - where there is none\n";
@@ -182,7 +189,9 @@ class TracksFiles {
     if (!options.plot.empty() && std::filesystem::path(options.plot).extension() != ".svg")
       throw ProgramError(fmt::format("{}: expected a name that ends in .svg", options.plot));
     if (!options.contacts.empty())
-      contacts_.emplace(options.contacts, options.separation.starts_with("cylinder"));
+      contacts_.emplace(options.contacts,
+                        ApproachColumns{.by_cylinder = options.separation.starts_with("cylinder"),
+                                        .has_errors = !options.error.empty()});
     if (!options.minima.empty()) minima_.emplace(options.minima);
     if (!options.pairs.empty()) pairs_.emplace(options.pairs);
     if (!options.plot.empty()) plot_.emplace(options.plot);
@@ -238,6 +247,13 @@ void add_closeness_options(CLI::App& command, TracksOptions& options) {
                   "Instead of --distance: cylinder:HORIZONTAL:VERTICAL, such as cylinder:5NM:1000ft, or "
                   "sphere:LENGTH")
       ->type_name("SHAPE")
+      ->group(group);
+  command
+      .add_option(
+          "--error", options.error,
+          "How far positions may be off: at samples, and for each second from the nearest sample, such as "
+          "10m:2m/s. Approaches are then possible ones, and say which are certain")
+      ->type_name("LENGTH[:SPEED]")
       ->group(group);
   command
       .add_option("--tolerance", options.tolerance,
@@ -310,7 +326,8 @@ EngineRun run_engine(const Scene& scene, bool quiet) {
 }
 
 TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const TrackScene& scene,
-                       const Closeness& closeness, const ApproachFilter& filter) {
+                       const Closeness& closeness, const ApproachFilter& filter,
+                       const PositionErrors& errors) {
   TracksResult result{.approaches = approaches_in(scene.searched(), run.events),
                       .left_out = {},
                       .of_one_body = 0,
@@ -323,10 +340,10 @@ TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const Tr
                                            .vertical = *closeness.vertical,
                                            .tolerance = scene.scene.world.contact_tolerance},
                                           *scene.scene.motion, result.approaches);
-  if (track_set.has_rectangles)
+  if (track_set.has_rectangles || errors.any())
     result.approaches =
         approaches_of_rectangles(closeness.distance, scene.scene.world.contact_tolerance, *scene.scene.motion,
-                                 shapes_of(track_set), result.approaches);
+                                 shapes_of(track_set), result.approaches, errors);
   result.of_one_body = leave_out_handovers(result.approaches, track_set);
   const bool found_none = result.approaches.empty();
   result.left_out = filter.apply(result.approaches);
@@ -351,7 +368,7 @@ TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const Tr
 void add_result(Summary& summary, const TracksOptions& options, const Closeness& closeness,
                 const TracksResult& result, const TrackSet& track_set) {
   summary.space();
-  add_approaches(summary, closeness, result.approaches);
+  add_approaches(summary, closeness, result.approaches, options.error);
   add_left_out(summary, options.choice, result.left_out);
   add_handovers(summary, track_set, result.of_one_body);
   add_vanishings(summary, result.vanishings, track_set);
@@ -371,18 +388,20 @@ int tracks(const TracksOptions& options) {
   check_closeness(closeness, track_set);
   files.check(track_set);
   const ApproachFilter filter(options.choice, track_set);
-  const TrackScene scene = scene_of(track_set, {.distance = closeness.distance,
-                                                .vertical = closeness.vertical,
-                                                .tolerance = options.tolerance,
-                                                .interpolation = options.reading.chosen_interpolation(),
-                                                .from = filter.window().from,
-                                                .until = filter.window().until});
+  const PositionErrors errors = errors_of(options.error, closeness, track_set);
+  const TrackScene scene =
+      scene_of(track_set, {.distance = closeness.distance + largest_error(errors, track_set),
+                           .vertical = closeness.vertical,
+                           .tolerance = options.tolerance,
+                           .interpolation = options.reading.chosen_interpolation(),
+                           .from = filter.window().from,
+                           .until = filter.window().until});
   for (const std::string& warning : warnings_of(track_set, scene))
     print_message("kinesphere: warning: {}\n", warning);
   warn_of_distance(closeness, track_set);
 
   const EngineRun run = run_engine(scene.searched(), options.quiet);
-  const TracksResult result = result_of(run, track_set, scene, closeness, filter);
+  const TracksResult result = result_of(run, track_set, scene, closeness, filter, errors);
   files.write(track_set, scene.scene, result.approaches, closeness.distance);
   files.write_summary(options.files, track_set, scene, result);
   Summary summary;
