@@ -175,6 +175,21 @@ TEST(Rectangles, ApproachesAreThoseOfDenseSamples) {
   EXPECT_GT(found, 30u);
 }
 
+TEST(Rectangles, TurningAloneBringsThemNear) {
+  const auto scene = *scene_of_tracks({{{0, {0, 0, 0}}, {10, {0, 0, 0}}}, {{0, {0, 4, 0}}, {10, {0, 4, 0}}}},
+                                      100.0, Interpolation::linear);
+  // The first turns by a half turn, and reaches up to 0.5 from the other where it stands across at 5 s.
+  const std::vector<RectangleBody> bodies{{.length = 5, .width = 1, .times = {0, 10}, .headings = {0, pi}},
+                                          {.length = 5, .width = 2, .times = {0}, .headings = {0}}};
+  const std::vector<Approach> whole{{.first = 0, .second = 1, .begin = 0, .end = 10}};
+  auto approaches = approaches_of_rectangles(0.6, 1e-6, *scene.motion, bodies, whole);
+  ASSERT_EQ(approaches.size(), 1u);
+  EXPECT_NEAR(approaches[0].begin + approaches[0].end, 10.0, 1e-4);
+  find_closest(*scene.motion, approaches, bodies, 1e-4);
+  EXPECT_LE(approaches[0].closest.distance, 0.5);
+  EXPECT_TRUE(approaches_of_rectangles(0.3, 1e-6, *scene.motion, bodies, whole).empty());
+}
+
 TEST(Rectangles, MinimaAreThoseOfDenseSamples) {
   Random random(74);
   for (int round = 0; round < 20; ++round) {
