@@ -185,6 +185,7 @@ TEST(Rectangles, TurningAloneBringsThemNear) {
   auto approaches = approaches_of_rectangles(0.6, 1e-6, *scene.motion, bodies, whole);
   ASSERT_EQ(approaches.size(), 1u);
   EXPECT_NEAR(approaches[0].begin + approaches[0].end, 10.0, 1e-4);
+  EXPECT_GT(approaches[0].begin, 3.0) << "only while it stands nearly across";
   find_closest(*scene.motion, approaches, bodies, 1e-4);
   EXPECT_LE(approaches[0].closest.distance, 0.5);
   EXPECT_TRUE(approaches_of_rectangles(0.3, 1e-6, *scene.motion, bodies, whole).empty());
