@@ -19,7 +19,7 @@ struct Preset {
   std::string_view columns;
   /// Names that the header must have to be recognised, separated by commas, as in `columns`; empty: the
   /// header does not tell.
-  std::string_view header;
+  std::string_view header{};
   double frame_rate = 0.0;  ///< frames per second; 0: unknown, or no frames
   DateOrder dates = DateOrder::unknown;
   std::string_view where{};  ///< rows that count
