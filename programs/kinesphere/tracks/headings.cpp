@@ -118,6 +118,10 @@ double HeadingScale::radians(double heading) const {
 HeadingScale heading_scale_of(const RawTrackSet& raw, const TrackOptions& options,
                               const Coordinates& coordinates) {
   const TableColumns& columns = raw.columns();
+  if (columns.rotation && options.heading_from != HeadingFrom::motion)
+    return {
+        .is_of_motion = false,
+        .text = fmt::format("of the quaternions in {}", column_text(raw.head(), columns.rotation->front()))};
   const auto &heading = columns[Quantity::heading], &course = columns[Quantity::course];
   if (options.heading_from == HeadingFrom::motion || (!heading && !course)) {
     if (options.heading_from && options.heading_from != HeadingFrom::motion)

@@ -137,6 +137,29 @@ TEST_F(SizesOf, HeadingsCountAsTheMotionShows) {
                      {"--heading: expected a column of headings"});
 }
 
+TEST_F(SizesOf, QuaternionsAreHeadings) {
+  // Two boxes of 4 m by 2 m that slide to the side, turned by 90 degrees: 10 m apart along x.
+  std::string rows;
+  for (int k = 0; k <= 10; ++k) {
+    const double w = std::sqrt(0.5), t = 0.1 * k, x = 2.0 * k;
+    rows += fmt::format(
+        "{{\"id\":\"a\",\"time\":{0},\"translation\":[{1},0,0.7],\"size\":[2,4,1.5],\"rotation\":[{2},0,0,{2}"
+        "]}}\n"
+        "{{\"id\":\"b\",\"time\":{0},\"translation\":[{3},0,0.7],\"size\":[2,4,1.5],\"rotation\":[{2},0,0,{2}"
+        "]}}\n",
+        t, x, w, x + 10.0);
+  }
+  const std::string file = write("n.json", rows);
+  const std::string options =
+      " --columns id=id,time=time,x=translation.0:m,y=translation.1:m,length=size.1:m,width=size.0:m --sizes "
+      "--distance 20 --pairs " +
+      path("p.jsonl");
+  ASSERT_EQ(run("tracks " + file + options).exit_code, 0);
+  EXPECT_NEAR(nlohmann::json::parse(read_text(path("p.jsonl")))["least_distance_m"].get<double>(), 8.0, 1e-6);
+  ASSERT_EQ(run("tracks " + file + options + " --heading motion").exit_code, 0);
+  EXPECT_NEAR(nlohmann::json::parse(read_text(path("p.jsonl")))["least_distance_m"].get<double>(), 6.0, 1e-6);
+}
+
 /// Positions of SUMO are those of the front, of highD those of a corner; cars on one spot stand in a column.
 TEST_F(SizesOf, PresetsKnowWhereOnTheCarItsPositionIs) {
   std::string sumo =

@@ -249,7 +249,8 @@ class ReportsOfRows final : public RowReports {
     const auto length = number(Quantity::length), width = number(Quantity::width);
     const TableColumns& columns = reader_->columns();
     report.written.heading =
-        reader_->number(columns[Quantity::heading] ? Quantity::heading : Quantity::course);
+        columns.rotation ? reader_->turned_axis()
+                         : reader_->number(columns[Quantity::heading] ? Quantity::heading : Quantity::course);
     if (!length || !width || !(*length > 0.0 && *width > 0.0)) return;
     report.written.length = *length;
     report.written.width = *width;

@@ -58,8 +58,8 @@ class JsonRows {
         return add_fields(name + '.', object, depth + 1);
       }
       case ondemand::json_type::array: {
-        // Longer lists are no positions.
-        constexpr std::size_t longest = 3;
+        // Longer lists are no positions, but a quaternion may say how a body is turned.
+        const std::size_t longest = plain_name(name).ends_with("rotation") ? 4 : 3;
         ondemand::array list = value.get_array();
         if (list.count_elements() > longest) return note_list(name, list);
         std::size_t place = 0;

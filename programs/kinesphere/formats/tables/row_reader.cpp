@@ -374,6 +374,19 @@ std::optional<double> RowReader::number(Quantity quantity) {
   return std::nullopt;
 }
 
+std::optional<double> RowReader::turned_axis() const {
+  std::array<double, 4> parts{};
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const auto number = columns_.rotation && (*columns_.rotation)[k] < fields_->size()
+                            ? number_field(field((*columns_.rotation)[k]), columns_.decimal_comma)
+                            : std::nullopt;
+    if (!number) return std::nullopt;
+    parts[k] = *number;
+  }
+  const auto [w, x, y, z] = parts;
+  return std::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
+}
+
 /// Returns the number of a longitude or latitude, negative in the west or south. `letters` name the
 /// hemispheres.
 std::optional<double> RowReader::degrees(Quantity quantity, const std::optional<std::size_t>& hemisphere,

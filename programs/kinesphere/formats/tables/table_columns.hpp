@@ -64,11 +64,13 @@ struct TableColumns {
   /// Where on a body its position is, as a preset says.
   enum class Place { middle, front, upper_left } place = Place::middle;
   bool heading_is_from_x = false;  ///< headings are counterclockwise from the x axis, as a preset says
-  bool is_ais = false;             ///< speeds of 102.3 kt and courses of 360 degrees are unknown
-  std::string where;               ///< rows that count, by the preset and by --where
-  bool id_is_file = false;         ///< the file has one body, called like it
-  bool has_own_heights = false;    ///< heights in the file are those of the bodies themselves
-  bool has_own_origin = false;     ///< times or places count from the start of each body
+  /// Columns of a quaternion that turns the x axis to where a body points: w, x, y, z.
+  std::optional<std::array<std::size_t, 4>> rotation;
+  bool is_ais = false;           ///< speeds of 102.3 kt and courses of 360 degrees are unknown
+  std::string where;             ///< rows that count, by the preset and by --where
+  bool id_is_file = false;       ///< the file has one body, called like it
+  bool has_own_heights = false;  ///< heights in the file are those of the bodies themselves
+  bool has_own_origin = false;   ///< times or places count from the start of each body
   /// Bodies with a pair of columns each, or three; empty where each row is one body.
   struct Body {
     std::string id;
