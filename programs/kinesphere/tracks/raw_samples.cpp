@@ -296,20 +296,13 @@ RawTrackSet::RawTrackSet(const TrackOptions& options, bool several_files)
   ground_ = is_below ? -size : size;
 }
 
-/// Recordings and JSON records come first; tables are those that look like no messages.
+/// Records in JSON are read as a whole; tables are those that look like nothing else.
 StreamFormat RawTrackSet::format_of(std::string_view text, const std::string& file) const {
   const ColumnHints& hints = options_.hints;
-  constexpr std::size_t enough = 4096;
-  const std::string_view beginning = text.substr(0, enough);
-  const auto said = format_named(hints.format, beginning);
-  // Sentences are messages of AIS, or a log of one receiver.
-  const bool may_be_recording = !said || is_table(*said) || *said == StreamFormat::nmea;
-  if (may_be_recording && recording_kind_of(text, hints) != nullptr) return StreamFormat::recording;
-  if (said && is_read_whole(*said))
-    throw ProgramError(fmt::format("{}: expected a file of --format {}, but it is none", file, hints.format));
-  const bool is_shown = hints.format.empty() && hints.columns.empty();
-  const auto format = is_shown ? recognised_format(beginning) : said;
-  return format && !is_table(*format) ? *format : StreamFormat::csv;
+  const StreamFormat format = format_of_text(text, hints).value_or(StreamFormat::csv);
+  if (!is_read_whole(format)) return is_table(format) ? StreamFormat::csv : format;
+  if (recording_kind_of(text, hints) != nullptr) return StreamFormat::recording;
+  throw ProgramError(fmt::format("{}: expected a file of --format {}, but it is none", file, hints.format));
 }
 
 /// Throws ProgramError for bytes that are no text of a table.
