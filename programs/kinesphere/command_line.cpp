@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "base/help_text.hpp"
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
 #include "base/standard_streams.hpp"
@@ -24,6 +25,36 @@ std::string commands_of(const CLI::App& app) {
   return text;
 }
 
+/// Returns ": did you mean WORD?" for a word that is nearly one of `known`; empty for another.
+std::string question_about(std::string_view word, const std::vector<std::string>& known) {
+  const std::string_view meant = meant_word(word, known);
+  return meant.empty() ? "" : fmt::format(": did you mean {}?", meant);
+}
+
+/// Throws ProgramError naming the first argument that is neither a command nor an option.
+[[noreturn]] void refuse_extra(const CLI::App& app, const std::string& first, std::string_view reason) {
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty() && !first.starts_with('-')) {
+    std::vector<std::string> names;
+    for (const CLI::App* const command : app.get_subcommands({})) names.push_back(command->get_name());
+    const std::string question = question_about(first, names);
+    throw ProgramError(fmt::format("there is no command {}{} (see --help)", first,
+                                   question.empty() ? ": expected " + commands_of(app) : question));
+  }
+  const CLI::App& command = chosen.empty() ? app : *chosen.front();
+  const std::vector<std::string> extras = app.remaining(true);
+  const auto extra = std::ranges::find_if(extras, [](const auto& each) { return each.starts_with('-'); });
+  if (extra == extras.end()) throw ProgramError(fmt::format("{} (see --help)", reason));
+  std::vector<std::string> names;
+  for (const CLI::Option* const option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (name.starts_with('-')) names.push_back(name);
+  }
+  const std::string given = extra->substr(0, extra->find('='));
+  throw ProgramError(fmt::format("{} has no option {}{} (see --help)", command.get_name(), given,
+                                 question_about(given, names)));
+}
+
 int parse_and_run(CLI::App& app, const std::vector<Command>& commands, int argc, char** argv) {
   reserve_standard_streams();
   app.set_version_flag("--version", std::string(version));
@@ -37,11 +68,7 @@ int parse_and_run(CLI::App& app, const std::vector<Command>& commands, int argc,
     finish_output();
     return exit_code;
   } catch (const CLI::ExtrasError& error) {
-    const std::string_view first = argv[1];
-    if (!app.get_subcommands().empty() || first.starts_with('-'))
-      throw ProgramError(fmt::format("{} (see --help)", error.what()));
-    throw ProgramError(
-        fmt::format("there is no command {}: expected {} (see --help)", first, commands_of(app)));
+    refuse_extra(app, argv[1], error.what());
   } catch (const CLI::ParseError& error) {
     throw ProgramError(fmt::format("{} (see --help)", error.what()));
   }
@@ -66,6 +93,7 @@ int run_program(const Program& program, int argc, char** argv) {
   try {
     CLI::App app(program.description, program.name);
     app.footer(program.footer);
+    app.formatter(make_help_formatter());
     std::vector<Command> commands;
     for (const auto& add : program.add_commands)
       for (Command& command : add(app)) commands.push_back(std::move(command));

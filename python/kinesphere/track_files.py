@@ -39,7 +39,9 @@ def tracks_in(
     interpolate: Optional[Literal["spline", "linear"]] = None,
     outside: Literal["vanish", "stay", "go-on"] = "vanish",
     tolerance: Optional[float] = None,
+    error: Optional[str] = None,
     sizes: bool = False,
+    heading: Optional[Literal["motion", "x-axis", "compass"]] = None,
     same: Union[str, Sequence[str], Mapping[str, str], None] = None,
     ignore: Union[str, Sequence[str], None] = None,
     count_handovers: bool = False,
@@ -59,7 +61,10 @@ def tracks_in(
     files: one or several; an id goes on from one to the next. distance: in metres, or in the file's lengths
     where their unit is not known; a text may have a unit, as "5NM". separation: instead of a distance, as
     "cylinder:5NM:1000ft"; approaches then have horizontal_distance and vertical_distance, too.
-    sizes: distances are between bodies as wide and long as the file says. from_, until: a window of time, as
+    error: how far positions may be off, at samples and for each second from the nearest one, as "10m:2m/s"; approaches
+    are then possible ones, and "certain" says which are certain.
+    sizes: distances are between bodies as wide and long as the file says, which are turned as its headings or their
+    motion say; heading: what headings count from, if that shows it not. from_, until: a window of time, as
     numbers or dates of the file. only: approaches of this id, or of these. min_duration: in seconds.
     format: a known tool, such as "movebank", where the header does not tell it. columns: which column is what,
     as "id=who,time=3:ms,x=east,y=north,z=up:ft". where: the rows that count, as "id != -1 and speed < 40".
@@ -94,7 +99,8 @@ def tracks_in(
         "format": format, "columns": columns, "where": where, "dates": dates, "frame_rate": frame_rate,
         "time_unit": time_unit, "unit": unit, "positions": positions, "projection": projection,
         "altitude": altitude, "missing": missing, "duplicates": duplicates, "max_speed": max_speed,
-        "max_gap": max_gap, "plan": plan, "interpolate": interpolate, "outside": outside, "tolerance": tolerance, "sizes": sizes,
+        "max_gap": max_gap, "plan": plan, "interpolate": interpolate, "outside": outside, "tolerance": tolerance, "error": error, "sizes": sizes,
+        "heading": heading,
         "same": joined, "ignore": ignore, "count_handovers": count_handovers, "ground": ground,
         "from": from_, "until": until, "only": ids, "min_duration": min_duration,
         "distance": distance, "separation": separation,
@@ -151,6 +157,8 @@ def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:
     for name in ("horizontal_distance", "vertical_distance"):
         if rows and {name, f"{name}_m"} & rows[0].keys():
             columns[name] = numbers(name)
+    if rows and "certain" in rows[0]:
+        columns["certain"] = np.array([value == "true" for value in text("certain")])
     kinds: list[Any] = [(name, column.dtype, column.shape[1:]) for name, column in columns.items()]
     array: npt.NDArray[np.void] = np.zeros(len(rows), dtype=kinds)
     for name, column in columns.items():

@@ -54,6 +54,16 @@ def test_every_option_of_reading_reaches_the_program(tmp_path: Path) -> None:
     assert len(ks.tracks_in(frames, 95, columns="id=1,time=2,x=3,y=4", time_unit="ms", program=program)) == 1
 
 
+def test_rectangles_and_errors(tmp_path: Path) -> None:
+    rows = [f"a,{t},{10 * t},0,4,2\nb,{t},{100 - 10 * t},3.5,4,2\n" for t in range(11)]
+    file = written(tmp_path, "id,time,x_m,y_m,length_m,width_m\n" + "".join(rows))
+    beside = ks.tracks_in(file, 2, sizes=True, heading="motion", program=program)
+    assert len(beside) == 1 and beside["closest_distance"][0] == pytest.approx(1.5)
+    possible = ks.tracks_in(file, 1, sizes=True, error="0.3m", program=program)
+    assert list(possible["certain"]) == [False]
+    assert list(ks.tracks_in(file, 3, sizes=True, error="0.3m:1m/s", program=program)["certain"]) == [True]
+
+
 def test_separations_sizes_and_windows(tmp_path: Path) -> None:
     file = written(
         tmp_path,

@@ -26,6 +26,7 @@ struct Approach {
   bool ends_with_track =
       false;  ///< the two were close at the last sample of one of them or at the end of the scene
   ClosestApproach closest{};  ///< within [begin, end]; set by find_closest()
+  bool is_certain = true;     ///< false: only if positions are off as far as they may be
 };
 
 /// Returns the approaches that a run of `scene` reported, sorted by begin. An approach without an end event

@@ -48,6 +48,43 @@ TEST_F(ProgramTest, SaysItsVersionAndHelps) {
   }
 }
 
+/// Lines fit a terminal, words are whole, and each command ends with what may be typed.
+TEST_F(ProgramTest, HelpsInEightyColumns) {
+  for (const std::string command : {"", "run", "replay", "verify", "scenes", "tracks", "view", "watch"}) {
+    const std::string help = run(command + " --help").out;
+    std::istringstream stream(help);
+    for (std::string line; std::getline(stream, line);)
+      EXPECT_LE(line.size(), 80u) << command << ": " << line;
+    if (command.empty()) continue;
+    const std::size_t examples = help.find("\nExamples:\n");
+    ASSERT_NE(examples, std::string::npos) << command;
+    EXPECT_EQ(lines_with(help.substr(examples), "  kinesphere "), 3u) << command;
+  }
+  const std::string tracks = run("tracks --help").out;
+  EXPECT_NE(tracks.find("\nHow close:\n  --distance LENGTH       How close counts as an approach: a number,"),
+            std::string::npos)
+      << tracks;
+  // A description that is broken goes on below its beginning.
+  EXPECT_NE(tracks.find("\n                          a unit, such as 500m, 5NM, 2um\n"), std::string::npos)
+      << tracks;
+}
+
+TEST_F(ProgramTest, AsksWhatIsMeant) {
+  expect_wrong_input("track x", {"there is no command track: did you mean tracks?"});
+  expect_wrong_input("wacth x", {"did you mean watch?"});
+  expect_wrong_input("tracks a.csv --distnce 3",
+                     {"tracks has no option --distnce: did you mean --distance?"});
+  expect_wrong_input("tracks a.csv --interp linear", {"did you mean --interpolate?"});
+  expect_wrong_input("run paper1 --sed=4", {"run has no option --sed: did you mean --seed?"});
+  expect_wrong_input("run paper1 --colour", {"run has no option --colour (see --help)"});
+}
+
+/// What is wrong first is said first: without the file no option helps.
+TEST_F(ProgramTest, SaysThatThereIsNoFile) {
+  for (const char* arguments : {"tracks none.csv", "tracks none.csv --distance 1"})
+    expect_wrong_input(arguments, {"none.csv: cannot read: No such file"});
+}
+
 TEST_F(ProgramTest, ListsTheScenes) {
   const ProgramRun result = run("scenes");
   EXPECT_EQ(result.exit_code, 0);

@@ -28,9 +28,15 @@ struct Close {
 
 }  // namespace
 
-std::string read_input(const std::string& path) {
+void require_input(const std::string& path) {
   std::error_code ignored;
+  if (path == "-") return;
   if (std::filesystem::is_directory(path, ignored)) fail(path, "expected a file, but it is a folder");
+  if (!std::filesystem::exists(path, ignored)) fail(path, std::strerror(ENOENT));
+}
+
+std::string read_input(const std::string& path) {
+  require_input(path);
   if (path == "-" && standard_input_is_closed()) fail("standard input", "it is closed");
   errno = 0;
   // zlib passes an uncompressed file through unchanged.

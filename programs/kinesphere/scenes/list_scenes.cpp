@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/help_text.hpp"
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
 #include "scenes/scene_file.hpp"
@@ -20,7 +21,9 @@ std::string range(double least, double largest) {
 }  // namespace
 
 CLI::App* add_scenes_command(CLI::App& program) {
-  return program.add_subcommand("scenes", "List the built-in scenes");
+  CLI::App* command = program.add_subcommand("scenes", "List the built-in scenes");
+  add_examples(*command, {"kinesphere scenes", "kinesphere run gas", "kinesphere verify paper2"});
+  return command;
 }
 
 int list_scenes() {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <span>
 
+#include "base/help_text.hpp"
 #include "base/input_file.hpp"
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
@@ -21,6 +22,8 @@ CLI::App* add_replay_command(CLI::App& program, ReplayOptions& options) {
       "replay", "Repeat what `run --record` recorded; the first step that goes another way is named");
   command->add_option("FILE", options.file, "The recording")->required();
   command->add_flag("--hash-only", options.hash_only, "Print the hash of the contacts and nothing else");
+  add_examples(*command, {"kinesphere run paper1 --record paper1.ksr", "kinesphere replay paper1.ksr",
+                          "kinesphere replay paper1.ksr --hash-only"});
   return command;
 }
 

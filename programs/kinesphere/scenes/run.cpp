@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/help_text.hpp"
 #include "base/output_file.hpp"
 #include "base/output_paths.hpp"
 #include "base/program_error.hpp"
@@ -192,6 +193,8 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
   command->add_flag("--audit", options.audit, "Check the detector's own records before every event (slow)");
   command->add_flag("--hash-only", options.hash_only, "Print the hash of the contacts and nothing else");
   command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
+  add_examples(*command, {"kinesphere run paper1", "kinesphere run gas --bodies 2000 --contacts events.csv",
+                          "kinesphere run my_scene.json --seconds 5 --record run.ksr"});
   return command;
 }
 

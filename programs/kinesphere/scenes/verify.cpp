@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/help_text.hpp"
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
 
@@ -14,6 +15,8 @@ CLI::App* add_verify_command(CLI::App& program, VerifyOptions& options) {
   CLI::App* command = program.add_subcommand(
       "verify", "Compare every contact of a scene with an exact oracle (bodies pass through each other)");
   add_scene_options(*command, options.scene);
+  add_examples(*command, {"kinesphere verify paper1", "kinesphere verify rain --seed 7 --seconds 3",
+                          "kinesphere verify my_scene.json"});
   return command;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/program_error.hpp"
 #include "number/infinity.hpp"
+#include "simulation/tracks/rectangle_conflicts.hpp"
 #include "tracks/sample_steps.hpp"
 #include "tracks/track_cells.hpp"
 #include "tracks/track_scene.hpp"
@@ -30,7 +31,7 @@ namespace {
 /// The columns of the table with the positions, which maps have as points.
 constexpr std::size_t first_of_positions = 8, behind_positions = 14;
 
-std::vector<std::string> approach_columns(const TrackSet& track_set, bool by_cylinder) {
+std::vector<std::string> approach_columns(const TrackSet& track_set, const ApproachColumns& chosen) {
   const auto with_unit = [&](std::string_view name, Measure measure = Measure::length) {
     return name_with_unit(name, measure, track_set);
   };
@@ -49,14 +50,16 @@ std::vector<std::string> approach_columns(const TrackSet& track_set, bool by_cyl
                                    "second_y",
                                    "second_z",
                                    with_unit("relative_speed", Measure::speed)};
-  if (by_cylinder)
+  if (chosen.by_cylinder)
     columns.insert(columns.end(), {with_unit("horizontal_distance"), with_unit("vertical_distance")});
   columns.insert(columns.end(), {"first_before", "first_after", "second_before", "second_after",
                                  with_unit("samples_apart", Measure::time)});
+  if (chosen.has_errors) columns.emplace_back("certain");
   return columns;
 }
 
-std::vector<Cell> approach_cells(const Approach& approach, const TrackSet& track_set, bool by_cylinder) {
+std::vector<Cell> approach_cells(const Approach& approach, const TrackSet& track_set,
+                                 const ApproachColumns& chosen) {
   const ClosestApproach& closest = approach.closest;
   std::vector<Cell> cells{time_cell(track_set.times, approach.begin),
                           time_cell(track_set.times, approach.end),
@@ -69,19 +72,21 @@ std::vector<Cell> approach_cells(const Approach& approach, const TrackSet& track
   add_position(cells, closest.first, track_set);
   add_position(cells, closest.second, track_set);
   cells.emplace_back(closest.relative_speed);
-  if (by_cylinder) cells.insert(cells.end(), {horizontal_distance(closest), vertical_distance(closest)});
+  if (chosen.by_cylinder)
+    cells.insert(cells.end(), {horizontal_distance(closest), vertical_distance(closest)});
   const ApproachSteps steps = steps_of(approach, track_set);
   for (const SampleStep& step : {steps.first, steps.second})
     for (const std::optional<double>& time : {step.before, step.after})
       cells.push_back(time ? time_cell(track_set.times, *time) : Cell());
   cells.push_back(steps.longest() ? Cell(*steps.longest()) : Cell());
+  if (chosen.has_errors) cells.emplace_back(approach.is_certain);
   return cells;
 }
 
 }  // namespace
 
-ApproachFile::ApproachFile(const std::string& path, bool by_cylinder)
-    : by_cylinder_(by_cylinder), map_format_(map_format_of(path)) {
+ApproachFile::ApproachFile(const std::string& path, const ApproachColumns& chosen)
+    : chosen_(chosen), map_format_(map_format_of(path)) {
   if (map_format_) {
     map_.emplace(path);
     return;
@@ -104,17 +109,16 @@ void ApproachFile::check(const TrackSet& track_set) const {
 }
 
 void ApproachFile::write(const std::vector<Approach>& approaches, const TrackSet& track_set) {
-  const std::vector<std::string> columns = approach_columns(track_set, by_cylinder_);
+  const std::vector<std::string> columns = approach_columns(track_set, chosen_);
   if (table_) {
     table_->begin(columns);
-    for (const Approach& approach : approaches)
-      table_->write(approach_cells(approach, track_set, by_cylinder_));
+    for (const Approach& approach : approaches) table_->write(approach_cells(approach, track_set, chosen_));
     return;
   }
   map_->write(map_begin(*map_format_));
   bool is_first = true;
   for (const Approach& approach : approaches) {
-    const std::vector<Cell> cells = approach_cells(approach, track_set, by_cylinder_);
+    const std::vector<Cell> cells = approach_cells(approach, track_set, chosen_);
     MapProperties properties;
     for (std::size_t k = 0; k < columns.size(); ++k)
       if (k < first_of_positions || k >= behind_positions) properties.emplace_back(columns[k], cells[k]);
@@ -130,9 +134,27 @@ void ApproachFile::commit() {
   if (map_) map_->commit();
 }
 
+namespace {
+
+/// Adds how near to a collision two rectangles came during an approach.
+void add_conflict(PairSummary& pair, const Approach& approach, const Motion& motion,
+                  const std::vector<RectangleBody>& shapes) {
+  const CollisionCourse course = collision_course(motion, approach, shapes);
+  if (course.least.seconds < pair.to_collision.seconds) pair.to_collision = course.least;
+  if (course.deceleration > pair.deceleration) {
+    pair.deceleration = course.deceleration;
+    pair.time_of_deceleration = course.at;
+  }
+  const PostEncroachment entry = post_encroachment(motion, approach, shapes);
+  if (entry.seconds < pair.encroachment.seconds) pair.encroachment = entry;
+}
+
+}  // namespace
+
 std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const TrackSet& track_set,
                                   const Motion& motion) {
   const std::vector<double> radii = radii_of(track_set);
+  const std::vector<RectangleBody> shapes = shapes_of(track_set);
   std::vector<PairSummary> pairs;
   std::map<std::pair<std::string, std::string>, std::size_t> known;
   for (const Approach& approach : approaches) {
@@ -147,7 +169,8 @@ std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const
     PairSummary& pair = pairs[at->second];
     ++pair.approaches;
     pair.duration += approach.end - approach.begin;
-    if (track_set.has_sizes) {
+    if (track_set.has_rectangles) add_conflict(pair, approach, motion, shapes);
+    if (track_set.has_sizes && !track_set.has_rectangles) {
       const LeastTimeToCollision least = least_time_to_collision(motion, approach, radii);
       if (least.seconds < pair.to_collision.seconds) pair.to_collision = least;
       const PostEncroachment entry = post_encroachment(motion, approach, radii);
@@ -174,6 +197,9 @@ void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const 
   if (track_set.has_sizes)
     columns.insert(columns.end(), {with_unit("least_time_to_collision", Measure::time), "time_of_that",
                                    with_unit("post_encroachment_time", Measure::time), "time_of_entry"});
+  if (track_set.has_rectangles)
+    columns.insert(columns.end(),
+                   {with_unit("deceleration_to_avoid_crash", Measure::acceleration), "time_of_deceleration"});
   table.begin(std::move(columns));
   for (const PairSummary& pair : pairs) {
     std::vector<Cell> cells{
@@ -189,6 +215,9 @@ void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const 
       add(pair.to_collision.seconds, pair.to_collision.at);
       add(pair.encroachment.seconds, pair.encroachment.at);
     }
+    // None is needed, or none helps any more.
+    if (track_set.has_rectangles)
+      add(pair.deceleration > 0.0 ? pair.deceleration : infinity, pair.time_of_deceleration);
     table.write(cells);
   }
 }

@@ -20,13 +20,18 @@ namespace kinesphere::program {
 double horizontal_distance(const ClosestApproach& closest);
 double vertical_distance(const ClosestApproach& closest);
 
+/// Columns that not all approaches have.
+struct ApproachColumns {
+  bool by_cylinder = false;  ///< the horizontal and the vertical distance
+  bool has_errors = false;   ///< whether an approach is certain
+};
+
 /// Every approach, as a table (.csv, .jsonl) or as points on a map (.geojson, .gpx, .kml). The constructor
 /// opens the file, so that a wrong path fails before a long run; the file appears with commit(). Throws
 /// ProgramError like TableFile and OutputFile.
 class ApproachFile {
  public:
-  /// `by_cylinder` adds the horizontal and the vertical distance.
-  ApproachFile(const std::string& path, bool by_cylinder);
+  ApproachFile(const std::string& path, const ApproachColumns& chosen);
 
   /// Throws ProgramError if the file needs longitudes and latitudes and the track set has none.
   void check(const TrackSet& track_set) const;
@@ -34,7 +39,7 @@ class ApproachFile {
   void commit();
 
  private:
-  bool by_cylinder_;
+  ApproachColumns chosen_;
   std::optional<TableFile> table_;
   std::optional<MapFormat> map_format_;
   std::optional<OutputFile> map_;
@@ -48,6 +53,8 @@ struct PairSummary {
   ClosestApproach closest{};  ///< closest of all approaches
   LeastTimeToCollision to_collision{};
   PostEncroachment encroachment{0.0, infinity};
+  double deceleration = 0.0;  ///< that avoids a crash (rectangles alone); 0 if none is needed
+  double time_of_deceleration = 0.0;
 };
 
 /// Returns the pairs, the one with the closest approach first. Their times to collision and post-encroachment

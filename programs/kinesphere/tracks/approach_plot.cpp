@@ -217,6 +217,8 @@ class Picture {
   }
 
   double distance_at(const Approach& approach, double time) const {
+    if (track_set_.has_rectangles)
+      return kinesphere::distance_at(*scene_.motion, shapes_, approach.first, approach.second, time);
     return norm(scene_.motion->state(approach.first, time).position -
                 scene_.motion->state(approach.second, time).position) -
            track_set_.tracks[approach.first].radius - track_set_.tracks[approach.second].radius;
@@ -294,6 +296,7 @@ class Picture {
   const TrackSet& track_set_;
   const Scene& scene_;
   const std::vector<Approach>& approaches_;
+  std::vector<RectangleBody> shapes_ = shapes_of(track_set_);
   double distance_;
   std::vector<std::size_t> closest_;
 };

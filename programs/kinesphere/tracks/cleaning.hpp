@@ -14,6 +14,7 @@ namespace kinesphere::program {
 struct PlacedSample {
   TrackSample sample;
   Place place;
+  std::optional<double> heading{};  ///< as the file has it
 };
 
 /// Samples of one body in order of time; all times differ.

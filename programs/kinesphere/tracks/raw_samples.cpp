@@ -13,9 +13,9 @@
 
 #include "base/ascii_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/converted/converted_table.hpp"
-#include "formats/converted/file_kind.hpp"
 #include "formats/fields/units.hpp"
+#include "formats/recordings/file_kind.hpp"
+#include "formats/recordings/recording_kinds.hpp"
 #include "formats/tables/header_line.hpp"
 #include "formats/tables/row_reader.hpp"
 #include "tracks/midnights.hpp"
@@ -46,22 +46,14 @@ TableColumns columns_of_messages(StreamFormat format, bool geographic, bool has_
 /// Takes the reports of one file.
 class RawTrackSet::FileReader final : public ReportSink {
  public:
-  /// `converted` says which lines of the file those of the text are; null for the file itself.
-  FileReader(RawTrackSet& track_set, StreamFormat format, const FormatChoices& choices,
-             const ConvertedTable* converted)
-      : track_set_(track_set),
-        format_(format),
-        converted_(converted),
-        reader_(make_format(format, choices)) {}
+  FileReader(RawTrackSet& track_set, StreamFormat format, const FormatChoices& choices)
+      : track_set_(track_set), format_(format), reader_(make_format(format, choices)) {}
 
   void read(std::string_view text) {
-    RecordCutter cutter(is_table(format_) ? RecordCutter::Kind::rows : records_of(format_));
-    constexpr std::size_t block = std::size_t{1} << 20;
-    for (; !text.empty(); text.remove_prefix(std::min(block, text.size()))) {
-      cutter.feed(text.substr(0, block));
-      while (const auto record = cutter.next()) read(*record);
-    }
-    if (const auto record = cutter.rest()) read(*record);
+    if (records_of(format_) == RecordCutter::Kind::whole)
+      read({.text = text, .line = 1});
+    else
+      read_records(text);
     guarded([&] { reader_->finish(*this); });
     if (is_table(format_)) {
       if (reader_->rows()->columns().times_are_clocks) track_set_.pass_clocks_through_midnights();
@@ -100,9 +92,11 @@ class RawTrackSet::FileReader final : public ReportSink {
       if (is_on_ground) position.z = missing_height;
       has_heights_ = has_heights_ || report.may_have_height;
       track.radius = std::max(track.radius, report.extent);
+      track.length = std::max(track.length, report.written.length);
+      track.width = std::max(track.width, report.written.width);
       add_scenes(*report.row, time.time);
     }
-    track.samples.push_back({time.time, position, place_, is_on_ground});
+    track.samples.push_back({time.time, position, place_, is_on_ground, report.written.heading});
   }
   void take_incomplete(const SourceReport& report) override {
     count_row();
@@ -121,12 +115,18 @@ class RawTrackSet::FileReader final : public ReportSink {
     if (time && policy == MissingPolicy::split) track.timed_placeless.push_back({time->time, place_});
   }
   void time_is(const FileTime&, TimeKind) override {}
+  void warn(const std::string& warning) override { track_set_.counts_.warnings.push_back(warning); }
+  void begin_row(std::size_t line) override {
+    place_ = {this_file(), static_cast<int>(line)};
+    is_counted_ = false;
+  }
   void pass_over(Passed reason) override {
     count_row();
     track_set_.count(reason == Passed::filtered ? track_set_.counts_.filtered : track_set_.counts_.missing,
                      place_);
   }
   void refuse(std::size_t line, const std::string& reason) override {
+    if (is_table(format_)) throw ProgramError(fmt::format("{}:{}: {}", file(), line, reason));
     count_row();
     place_.line = static_cast<int>(line);
     track_set_.count(track_set_.counts_.malformed, place_);
@@ -135,16 +135,21 @@ class RawTrackSet::FileReader final : public ReportSink {
 
   const std::string& file() const { return track_set_.files_.back(); }
 
-  void read(Record record) {
-    if (converted_ != nullptr) record.line = converted_->line_in_file(record.line);
-    place_ = {static_cast<std::uint32_t>(track_set_.files_.size() - 1), static_cast<int>(record.line)};
-    is_counted_ = false;
+  void read_records(std::string_view text) {
+    RecordCutter cutter(is_table(format_) ? RecordCutter::Kind::rows : records_of(format_));
+    constexpr std::size_t block = std::size_t{1} << 20;
+    for (; !text.empty(); text.remove_prefix(std::min(block, text.size()))) {
+      cutter.feed(text.substr(0, block));
+      while (const auto record = cutter.next()) read(*record);
+    }
+    if (const auto record = cutter.rest()) read(*record);
+  }
+  void read(const Record& record) {
+    begin_row(record.line);
     guarded([&] {
       try {
         reader_->read(record, *this);
       } catch (const WrongInput& error) {
-        if (is_table(format_))
-          throw ProgramError(fmt::format("{}:{}: {}", file(), record.line, error.what()));
         refuse(record.line, error.what());
       }
     });
@@ -273,7 +278,6 @@ class RawTrackSet::FileReader final : public ReportSink {
 
   RawTrackSet& track_set_;
   StreamFormat format_;
-  const ConvertedTable* converted_;
   std::unique_ptr<ReportFormat> reader_;
   Place place_;              ///< of the record
   bool is_counted_ = false;  ///< the row was counted
@@ -292,56 +296,42 @@ RawTrackSet::RawTrackSet(const TrackOptions& options, bool several_files)
   ground_ = is_below ? -size : size;
 }
 
-/// Tables are those that look like no messages.
-StreamFormat RawTrackSet::format_of(std::string_view text) const {
-  const std::string& said = options_.hints.format;
-  constexpr std::size_t enough = 4096;
-  const auto format = said.empty() && options_.hints.columns.empty()
-                          ? recognised_format(text.substr(0, enough))
-                          : format_named(said, text.substr(0, enough));
-  return format && !is_table(*format) ? *format : StreamFormat::csv;
+/// Records in JSON are read as a whole; tables are those that look like nothing else.
+StreamFormat RawTrackSet::format_of(std::string_view text, const std::string& file) const {
+  const ColumnHints& hints = options_.hints;
+  const StreamFormat format = format_of_text(text, hints).value_or(StreamFormat::csv);
+  if (!is_read_whole(format)) return is_table(format) ? StreamFormat::csv : format;
+  if (recording_kind_of(text, hints) != nullptr) return StreamFormat::recording;
+  throw ProgramError(fmt::format("{}: expected a file of --format {}, but it is none", file, hints.format));
 }
 
-void RawTrackSet::read(std::string text, const std::string& file) {
-  const bool geometric = options_.altitude == FormatChoices::Altitude::geometric;
-  const auto said = format_named(options_.hints.format, {});
-  // Sentences are messages of AIS, or a log of one receiver.
-  const bool may_be_converted = !said || is_table(*said) || *said == StreamFormat::nmea;
-  auto converted = may_be_converted ? convert_to_table(text, file, geometric) : std::nullopt;
-  if (converted) {
-    text = std::move(converted->text);
-    counts_.warnings.insert(counts_.warnings.end(), converted->warnings.begin(), converted->warnings.end());
-  }
+/// Throws ProgramError for bytes that are no text of a table.
+void RawTrackSet::refuse_other_kinds(std::string_view text, const std::string& file) {
+  if (const std::string other = other_file_kind(text); !other.empty())
+    throw ProgramError(fmt::format("{}: expected a table in a text file, but it is {}", file, other));
+  if (text.find('\0') != std::string::npos)
+    throw ProgramError(
+        fmt::format("{}: expected a text file, but it has zero bytes: if it is one that was cut off, leave "
+                    "them out with tr -d '\\0'",
+                    file));
+}
+
+void RawTrackSet::read(const std::string& text, const std::string& file) {
+  const StreamFormat format = format_of(text, file);
   files_.push_back(file);
   FormatChoices choices = options_;
   choices.source = file;
   choices.is_recording = true;
-  if (said && becomes_table(*said)) {
-    if (!converted)
-      throw ProgramError(
-          fmt::format("{}: expected a file of --format {}, but it is none", file, choices.hints.format));
-    choices.hints.format.clear();
-  }
   // The errors of positions do not count.
   choices.position_error_is_said = true;
-  if (converted) choices.title = converted->format;
-  const StreamFormat format = converted ? StreamFormat::csv : format_of(text);
-  if (is_table(format)) {
-    if (const std::string other = other_file_kind(text); !other.empty())
-      throw ProgramError(fmt::format("{}: expected a table in a text file, but it is {}", file, other));
-    if (text.find('\0') != std::string::npos)
-      throw ProgramError(
-          fmt::format("{}: expected a text file, but it has zero bytes: if it is one that was cut off, leave "
-                      "them out with tr -d '\\0'",
-                      file));
-  }
-  if (converted && converted->is_one_body) add_file_id(id_of_file(file));
-  FileReader reader(*this, format, choices, converted ? &*converted : nullptr);
+  const bool is_text_table = is_table(format) && !is_read_whole(format);
+  if (is_text_table) refuse_other_kinds(text, file);
+  FileReader reader(*this, format, choices);
   const std::size_t rows_before = counts_.rows;
   try {
     reader.read(text);
   } catch (const ProgramError&) {
-    const bool may_be_below = is_table(format) && !converted && counts_.rows == rows_before;
+    const bool may_be_below = is_text_table && counts_.rows == rows_before;
     const auto header = may_be_below ? line_of_later_header(text) : std::nullopt;
     if (!header) throw;
     const std::string from = fmt::format("tail -n +{}", *header), word = shell_word(file);

@@ -28,14 +28,16 @@ struct RawSample {
   FileTime time;
   Vec3 position;  ///< in the units of the file; z is NaN where only others have a height
   Place place;
-  bool on_ground = false;  ///< without a height
+  bool on_ground = false;           ///< without a height
+  std::optional<double> heading{};  ///< as the file has it
 };
 
 /// The samples of one id.
 struct RawTrack {
   std::string id;
-  std::vector<RawSample> samples;  ///< in the order of the rows
-  double radius = 0.0;             ///< of a disc that covers the body (metres); 0 where no size is known
+  std::vector<RawSample> samples;    ///< in the order of the rows
+  double radius = 0.0;               ///< of a disc that covers the body (metres); 0 where no size is known
+  double length = 0.0, width = 0.0;  ///< the largest of all rows (metres)
   std::size_t forward = 0, backward = 0;  ///< rows that are later, or earlier, than the row before
   Place first_backward;                   ///< row
   bool is_joined = false;                 ///< --same names it, so that its rows may be in any order
@@ -55,9 +57,9 @@ class RawTrackSet {
   /// Throws ProgramError naming a wrong option.
   RawTrackSet(const TrackOptions& options, bool several_files);
 
-  /// Adds a file: a table, a file that is converted to one, or messages. Throws ProgramError naming file,
+  /// Adds a file: a table, a recording of another kind, or messages. Throws ProgramError naming file,
   /// line and column of an error. Damaged messages, and those without a position, are counted.
-  void read(std::string text, const std::string& file);
+  void read(const std::string& text, const std::string& file);
   /// Returns the scale of the times. Precondition: all files have been read. Throws ProgramError if the frame
   /// numbers do not fit the format.
   TimeScale time_scale() const;
@@ -84,7 +86,8 @@ class RawTrackSet {
  private:
   class FileReader;
 
-  StreamFormat format_of(std::string_view text) const;
+  StreamFormat format_of(std::string_view text, const std::string& file) const;
+  static void refuse_other_kinds(std::string_view text, const std::string& file);
   /// Notes the body of a file. Throws ProgramError if another file has the same.
   void add_file_id(const std::string& id);
   /// Makes clock times of the last file go on behind midnight. Throws ProgramError naming a row of which the

@@ -54,9 +54,9 @@ std::string_view name_of(Outside outside) {
 
 CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& files, TrackOptions& options) {
   command.footer(
-      "Tables with separators ; , tab or blanks, quoted or not, with the usual column names: id (mmsi,\n"
-      "track_id, agent, ...), time (t, timestamp, datetime, ...) or frame, x y z or lon lat. GPX, KML, logs\n"
-      "of NMEA and IGC, JSON, XYZ, GRO, PDB, dumps of LAMMPS, motion capture, DeepLabCut, Vissim, pNEUMA,\n"
+      "Tables with separators ; , tab or blanks, quoted or not, with the usual column names: id (mmsi, "
+      "track_id, agent, ...), time (t, timestamp, datetime, ...) or frame, x y z or lon lat. GPX, KML, logs "
+      "of NMEA and IGC, JSON, XYZ, GRO, PDB, dumps of LAMMPS, motion capture, DeepLabCut, Vissim, pNEUMA, "
       "sentences of AIS, messages of ADS-B. docs/tables.md explains each kind of file, and docs/tracks.md "
       "every option.");
   CLI::Option* const file_option =
@@ -103,6 +103,11 @@ void add_motion_options(CLI::App& command, TrackOptions& options) {
       .add_flag("--count-handovers", options.counts_handovers,
                 "An id that begins where and when another one ends is another body, and comes near it")
       ->group(input_group);
+  add_choice<std::optional<HeadingFrom>>(
+      command, "--heading", options.heading_from,
+      {{"motion", HeadingFrom::motion}, {"x-axis", HeadingFrom::x_axis}, {"compass", HeadingFrom::north}}, "",
+      "With --sizes: what headings count from, counterclockwise from the x axis or "
+      "clockwise from north; motion: bodies point where they go");
   add_choice(command, "--outside", options.outside,
              {{"vanish", Outside::vanish}, {"stay", Outside::stay}, {"go-on", Outside::go_on}}, "vanish",
              "Before its first and after its last sample a body is not there, stays at that sample, or goes "

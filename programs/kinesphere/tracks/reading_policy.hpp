@@ -26,6 +26,12 @@ enum class DuplicatePolicy {
   mean,   ///< the mean of their positions
 };
 
+enum class HeadingFrom {
+  motion,  ///< bodies point where they go
+  x_axis,  ///< counterclockwise from the x axis
+  north,   ///< clockwise from north, the y axis
+};
+
 /// Returns "vanish", "stay" or "go-on".
 std::string_view name_of(Outside outside);
 
@@ -44,6 +50,9 @@ struct TrackOptions : FormatChoices {
   std::optional<Interpolation> interpolation;  ///< Default: straight on in a plan, else a spline
   std::string ground;  ///< height of aircraft on the ground that have none: a length; empty to leave them out
   bool counts_handovers = false;  ///< approaches of an id with the one as which it goes on are approaches
+  /// What headings of bodies with a size count from, or that they are those of their motion. Default: what
+  /// the file or its motion says.
+  std::optional<HeadingFrom> heading_from;
   /// Before the first and after the last sample of an id, within the recording.
   Outside outside = Outside::vanish;
 

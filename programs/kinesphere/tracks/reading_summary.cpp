@@ -72,6 +72,14 @@ void add_track_set(Summary& summary, const std::vector<std::string>& files, cons
                 grouped(static_cast<std::uint64_t>(std::count_if(tracks.begin(), tracks.end(), is_sized))),
                 fmt::format("of the tracks, the largest of radius {}; the others are points",
                             number(std::max_element(tracks.begin(), tracks.end(), smaller)->radius)));
+    if (track_set.has_rectangles) {
+      const auto is_turned = [](const RecordedTrack& track) { return track.shape.length > 0.0; };
+      const auto turned = std::count_if(tracks.begin(), tracks.end(), is_turned);
+      const auto sized = std::count_if(tracks.begin(), tracks.end(), is_sized);
+      summary.row("headings", grouped(static_cast<std::uint64_t>(turned)),
+                  track_set.headings +
+                      (turned == sized ? "" : "; bodies that do not move, and have none, are discs"));
+    }
   }
   if (!track_set.filter.empty())
     summary.row("left out", grouped(track_set.filtered.count),

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "base/json_text.hpp"
 #include "tracks/coverage_summary.hpp"
 #include "tracks/track_cells.hpp"
@@ -30,6 +32,7 @@ std::string summary_json(const std::vector<std::string>& files, const TrackSet& 
   text += fmt::format(
       R"(, "approaches": {}, "left_out_by_ids": {}, "left_out_by_duration": {}, "probes": {})",
       result.approaches.size(), result.left_out.by_ids, result.left_out.by_duration, result.probes);
+  text += fmt::format(R"(, "certain": {})", std::ranges::count_if(result.approaches, &Approach::is_certain));
   text += ", " + json_of_handovers(track_set, result.of_one_body);
   text += fmt::format(R"(, "outside": "{}", {})", name_of(track_set.outside),
                       json_members_of(result.vanishings, track_set));

@@ -12,7 +12,8 @@ std::string name_with_unit(std::string_view name, Measure measure, const TrackSe
   const std::string_view unit = measure == Measure::time     ? "_s"
                                 : !track_set.in_metres       ? ""
                                 : measure == Measure::length ? "_m"
-                                                             : "_mps";
+                                : measure == Measure::speed  ? "_mps"
+                                                             : "_mps2";
   return fmt::format("{}{}", name, unit);
 }
 

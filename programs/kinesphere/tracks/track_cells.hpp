@@ -11,8 +11,8 @@
 
 namespace kinesphere::program {
 
-/// Returns the name of a column with the unit of a length, speed or duration behind it: distance_m,
-/// relative_speed_mps, duration_s. Lengths of unknown unit, and speeds in these, have none.
+/// Returns the name of a column with the unit of a length, speed, acceleration or duration behind it:
+/// distance_m, relative_speed_mps, duration_s. Lengths of unknown unit, and speeds in these, have none.
 std::string name_with_unit(std::string_view name, Measure measure, const TrackSet& track_set);
 /// A number where the file has numbers, else a date.
 Cell time_cell(const TimeScale& times, double time);

@@ -17,6 +17,7 @@
 #include "tracks/cleaning.hpp"
 #include "tracks/echoes.hpp"
 #include "tracks/handovers.hpp"
+#include "tracks/headings.hpp"
 #include "tracks/raw_samples.hpp"
 
 namespace kinesphere::program {
@@ -186,7 +187,7 @@ std::optional<std::string> warning_about_lone_tracks(const TrackSet& track_set) 
 /// The pieces of one id, before they are split at gaps.
 struct Body {
   std::string id;
-  double radius;
+  double radius, length, width;
   std::vector<Piece> pieces;
   std::vector<double> placeless;  ///< times of rows without a position, in order
   Presence presence;              ///< without what became tracks
@@ -214,6 +215,10 @@ class Reading {
       track_set_.unused.push_back(raw.head().names.empty() ? fmt::format("{}", column + 1)
                                                            : raw.head().names[column]);
     track_set_.smallest_max_gap = std::numeric_limits<double>::infinity();
+    track_set_.has_rectangles = track_set_.has_sizes && track_set_.is_plane;
+    if (!track_set_.has_rectangles) return;
+    headings_ = heading_scale_of(raw, options, track_set_.coordinates);
+    track_set_.headings = headings_.text;
   }
 
   TrackSet run() {
@@ -236,13 +241,14 @@ class Reading {
 
  private:
   Body cleaned(const RawTrack& track) {
-    Body body{.id = track.id, .radius = track.radius};
+    Body body{.id = track.id, .radius = track.radius, .length = track.length, .width = track.width};
     Piece samples;
     samples.reserve(track.samples.size());
     for (const RawSample& sample : track.samples) {
       samples.push_back(
           {{track_set_.times.seconds(sample.time), track_set_.coordinates.local(sample.position)},
-           sample.place});
+           sample.place,
+           sample.heading});
     }
     leave_one_at_each_time(samples, track.id, options_.duplicates, raw_, track_set_.duplicates);
     leave_out_echoes(samples, raw_, track_set_.echoes);
@@ -293,6 +299,8 @@ class Reading {
       for (Piece& piece : split_at_gaps(whole, max_gap, breaks)) pieces.push_back(std::move(piece));
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       RecordedTrack track{.id = body.id, .samples = {}, .radius = body.radius};
+      if (track_set_.has_rectangles)
+        track.shape = rectangle_of(pieces[k], body.length, body.width, headings_, raw_.columns().place);
       for (const PlacedSample& sample : pieces[k]) track.samples.push_back(sample.sample);
       if (options_.outside != Outside::vanish) reach_outside(track, k == 0, k + 1 == pieces.size());
       if (track.samples.size() == 1) {
@@ -346,6 +354,7 @@ class Reading {
   const RawTrackSet& raw_;
   const TrackOptions& options_;
   TrackSet track_set_;
+  HeadingScale headings_;
   std::vector<Body> bodies_;
   /// From the first to the last row of all ids.
   struct {
@@ -370,7 +379,7 @@ TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options)
   std::vector<std::string> files;
   for (NamedText& text : texts) {
     files.push_back(text.file);
-    raw.read(std::move(text.text), text.file);
+    raw.read(text.text, text.file);
   }
   raw.ask_about_identities();
   ask_about_row_numbers(raw);

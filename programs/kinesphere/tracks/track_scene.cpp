@@ -208,6 +208,13 @@ std::vector<double> radii_of(const TrackSet& track_set) {
   return radii;
 }
 
+std::vector<RectangleBody> shapes_of(const TrackSet& track_set) {
+  std::vector<RectangleBody> shapes;
+  for (const RecordedTrack& track : track_set.tracks)
+    shapes.push_back(track_set.has_rectangles ? track.shape : RectangleBody{.radius = track.radius});
+  return shapes;
+}
+
 RecordedTracks splines_through(const TrackSet& track_set) {
   std::vector<RestingEnds> ends;
   for (const RecordedTrack& track : track_set.tracks) ends.push_back(track.rests);

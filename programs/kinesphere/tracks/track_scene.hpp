@@ -57,6 +57,9 @@ struct TrackScene {
 /// Returns the radii of the bodies, by track.
 std::vector<double> radii_of(const TrackSet& track_set);
 
+/// Returns the shapes of the bodies, by track: rectangles, or spheres.
+std::vector<RectangleBody> shapes_of(const TrackSet& track_set);
+
 /// Returns smooth curves through the samples, one for each track. Throws ProgramError naming the id if a
 /// curve overflows.
 RecordedTracks splines_through(const TrackSet& track_set);

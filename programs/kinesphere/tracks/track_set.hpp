@@ -8,6 +8,7 @@
 
 #include "formats/fields/time_scale.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
+#include "simulation/tracks/rectangles.hpp"
 #include "tracks/coordinates.hpp"
 
 namespace kinesphere::program {
@@ -18,7 +19,8 @@ struct RecordedTrack {
   double radius = 0.0;               ///< of a disc or sphere around the body; 0 for a point
   /// Times before the first and after the last sample until which the body is there, too (--outside).
   std::optional<double> reaches_back_to, reaches_on_to;
-  RestingEnds rests;  ///< at these ends the body rests, and stays
+  RestingEnds rests;    ///< at these ends the body rests, and stays
+  RectangleBody shape;  ///< of a track set with rectangles
 
   /// When the body is there, in seconds.
   double from() const { return reaches_back_to.value_or(samples.front().time); }
@@ -72,6 +74,8 @@ struct TrackSet : ReadCounts {
   bool in_metres = false;             ///< unit of lengths; if false, it is unknown
   bool has_heights = false;           ///< the files have a column of heights
   bool has_sizes = false;             ///< sizes were asked for
+  bool has_rectangles = false;        ///< of bodies with a size; they are discs or spheres otherwise
+  std::string headings;               ///< of rectangles: where they come from, for the summary
   bool is_plane = false;              ///< nothing leaves the plane z = 0
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
   std::vector<Presence> presences;    ///< one for each id, in the order of the tracks

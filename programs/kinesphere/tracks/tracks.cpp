@@ -12,6 +12,8 @@
 #include <memory>
 #include <utility>
 
+#include "base/help_text.hpp"
+#include "base/input_file.hpp"
 #include "base/number_text.hpp"
 #include "base/output_paths.hpp"
 #include "base/program_error.hpp"
@@ -24,10 +26,12 @@
 #include "simulation/oracle/comparison.hpp"
 #include "simulation/tracks/approaches.hpp"
 #include "simulation/tracks/cylinder_approaches.hpp"
+#include "simulation/tracks/rectangle_approaches.hpp"
 #include "tracks/approach_files.hpp"
 #include "tracks/approach_plot.hpp"
 #include "tracks/closeness.hpp"
 #include "tracks/coverage_summary.hpp"
+#include "tracks/error_option.hpp"
 #include "tracks/handovers.hpp"
 #include "tracks/implied_speeds.hpp"
 #include "tracks/minima_table.hpp"
@@ -41,13 +45,19 @@
 namespace kinesphere::program {
 namespace {
 
-void add_approaches(Summary& summary, const Closeness& closeness, const std::vector<Approach>& approaches) {
+void add_approaches(Summary& summary, const Closeness& closeness, const std::vector<Approach>& approaches,
+                    const std::string& errors) {
   const auto cut = std::count_if(approaches.begin(), approaches.end(),
                                  [](const Approach& approach) { return approach.ends_with_track; });
   summary.row("approaches", grouped(approaches.size()),
               fmt::format("{}, {} of them until a track's end", closeness.text,
                           grouped(static_cast<std::uint64_t>(cut))));
   if (approaches.empty()) return;
+  if (!errors.empty()) {
+    const auto certain = std::ranges::count_if(approaches, &Approach::is_certain);
+    summary.row("certain", grouped(static_cast<std::uint64_t>(certain)),
+                fmt::format("of the approaches; the others are possible, with positions off by {}", errors));
+  }
   const auto shorter = [](const Approach& a, const Approach& b) { return a.end - a.begin < b.end - b.begin; };
   const auto [shortest, longest] = std::minmax_element(approaches.begin(), approaches.end(), shorter);
   summary.row("duration", fmt::format("{} s to {} s", number(shortest->end - shortest->begin),
@@ -84,13 +94,13 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Tr
     const ClosestApproach& closest = approach.closest;
     const auto apart = steps_of(approach, track_set).longest();
     text += fmt::format(
-        "{:>24}  {}  {:>14}  {}{:>11}{} {:>8}  {} {}\n", track_set.times.text(closest.time, 6),
+        "{:>24}  {}  {:>14}  {}{:>11}{} {:>8}  {} {}{}\n", track_set.times.text(closest.time, 6),
         by_cylinder ? distances(number(horizontal_distance(closest)), number(vertical_distance(closest)))
                     : distances(number(closest.distance), ""),
         number(closest.relative_speed), approach.begins_with_track ? "<" : " ",
         number(approach.end - approach.begin), approach.ends_with_track ? "> " : "  ",
         apart ? number(*apart) : "-", marked(approach.first, closest.time),
-        marked(approach.second, closest.time));
+        marked(approach.second, closest.time), approach.is_certain ? "" : " (possible)");
   }
   text += "< close from a track's first sample (or --from) on, > until a track's last sample (or --until)\n";
   text += "samples: seconds from the sample before to the one after, 0 at a sample, - where there is none\n";
@@ -179,7 +189,9 @@ class TracksFiles {
     if (!options.plot.empty() && std::filesystem::path(options.plot).extension() != ".svg")
       throw ProgramError(fmt::format("{}: expected a name that ends in .svg", options.plot));
     if (!options.contacts.empty())
-      contacts_.emplace(options.contacts, options.separation.starts_with("cylinder"));
+      contacts_.emplace(options.contacts,
+                        ApproachColumns{.by_cylinder = options.separation.starts_with("cylinder"),
+                                        .has_errors = !options.error.empty()});
     if (!options.minima.empty()) minima_.emplace(options.minima);
     if (!options.pairs.empty()) pairs_.emplace(options.pairs);
     if (!options.plot.empty()) plot_.emplace(options.plot);
@@ -192,9 +204,12 @@ class TracksFiles {
   void write(const TrackSet& track_set, const Scene& scene, const std::vector<Approach>& approaches,
              double distance) {
     if (contacts_) contacts_->write(approaches, track_set);
-    if (minima_)
-      write_minima(*minima_, minima_in(*scene.motion, approaches, radii_of(track_set)), approaches,
-                   track_set);
+    if (minima_) {
+      const auto minima = track_set.has_rectangles
+                              ? minima_in(*scene.motion, approaches, shapes_of(track_set))
+                              : minima_in(*scene.motion, approaches, radii_of(track_set));
+      write_minima(*minima_, minima, approaches, track_set);
+    }
     if (pairs_) write_pairs(*pairs_, pairs_in(approaches, track_set, *scene.motion), track_set);
     if (plot_) plot_->write(plot_of(track_set, scene, approaches, distance));
   }
@@ -218,46 +233,72 @@ class TracksFiles {
 
 }  // namespace
 
+namespace {
+
+void add_closeness_options(CLI::App& command, TracksOptions& options) {
+  constexpr const char* group = "How close";
+  command
+      .add_option("--distance", options.distance,
+                  "How close counts as an approach: a number, and perhaps a unit, such as 500m, 5NM, 2um")
+      ->type_name("LENGTH")
+      ->group(group);
+  command
+      .add_option("--separation", options.separation,
+                  "Instead of --distance: cylinder:HORIZONTAL:VERTICAL, such as cylinder:5NM:1000ft, or "
+                  "sphere:LENGTH")
+      ->type_name("SHAPE")
+      ->group(group);
+  command
+      .add_option(
+          "--error", options.error,
+          "How far positions may be off: at samples, and for each second from the nearest sample, such as "
+          "10m:2m/s. Approaches are then possible ones, and say which are certain")
+      ->type_name("LENGTH[:SPEED]")
+      ->group(group);
+  command
+      .add_option("--tolerance", options.tolerance,
+                  "Tolerance of that distance; when not given a millionth of it, or 1e-12 of the extent")
+      ->check(finite_number())
+      ->group(group);
+  command
+      .add_flag(
+          "--sizes", options.reading.hints.sizes,
+          "Distances are between rectangles (in 3D spheres) of the columns length and width, which turn as "
+          "their heading or their motion says; --pairs has times to collision, post-encroachment times and "
+          "decelerations that avoid a crash")
+      ->group(group);
+}
+
+void add_output_options(CLI::App& command, TracksOptions& options) {
+  constexpr const char* group = "What comes out";
+  const auto add_file = [&](const char* name, std::string& file, const char* description) {
+    command.add_option(name, file, description)->type_name("FILE")->group(group);
+  };
+  add_file("--contacts", options.contacts,
+           "Write every approach to this .csv or .jsonl file or, where positions are on the earth, .geojson, "
+           ".gpx or .kml file");
+  add_file("--minima", options.minima,
+           "Write every local minimum of the distance during approaches to this .csv or .jsonl file");
+  add_file("--pairs", options.pairs, "Write a line for each pair of ids to this .csv or .jsonl file");
+  add_file("--plot", options.plot, "Draw a map and the closest approaches into this .svg file");
+  add_file("--summary", options.summary, "Write the summary to this file, as JSON");
+  command.add_flag("--verify", options.verify, "Compare with the exact oracle on the same curves")
+      ->group(group);
+  command.add_flag("--quiet", options.quiet, "No progress bar and no summary")->group(group);
+}
+
+}  // namespace
+
 CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
   CLI::App* command = program.add_subcommand("tracks", "Find every approach in a recording of real motion");
-  command
-      ->add_option("--distance", options.distance,
-                   "How close counts as an approach: a number, and perhaps a unit, such as 500m, 5NM, 2um")
-      ->type_name("LENGTH");
-  command
-      ->add_option("--separation", options.separation,
-                   "Instead of --distance: cylinder:HORIZONTAL:VERTICAL, such as cylinder:5NM:1000ft, or "
-                   "sphere:LENGTH")
-      ->type_name("SHAPE");
-  command
-      ->add_option("--tolerance", options.tolerance,
-                   "Tolerance of that distance; when not given a millionth of it, or 1e-12 of the extent")
-      ->check(finite_number());
-  command
-      ->add_option("--contacts", options.contacts,
-                   "Write every approach to this .csv or .jsonl file or, where positions are on the earth, "
-                   ".geojson, .gpx or .kml file")
-      ->type_name("FILE");
-  command
-      ->add_option("--minima", options.minima,
-                   "Write every local minimum of the distance during approaches to this .csv or .jsonl file")
-      ->type_name("FILE");
-  command
-      ->add_option("--pairs", options.pairs, "Write a line for each pair of ids to this .csv or .jsonl file")
-      ->type_name("FILE");
-  command->add_option("--plot", options.plot, "Draw a map and the closest approaches into this .svg file")
-      ->type_name("FILE");
-  command->add_option("--summary", options.summary, "Write the summary to this file, as JSON")
-      ->type_name("FILE");
+  add_closeness_options(*command, options);
+  add_choice_options(*command, options.choice);
+  add_output_options(*command, options);
   add_reading_options(*command, options.files, options.reading);
   add_motion_options(*command, options.reading);
-  command->add_flag(
-      "--sizes", options.reading.hints.sizes,
-      "Distances are between discs (in 3D spheres) around bodies of the columns length and width, and "
-      "--pairs has times to collision and post-encroachment times");
-  add_choice_options(*command, options.choice);
-  command->add_flag("--verify", options.verify, "Compare with the exact oracle on the same curves");
-  command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
+  add_examples(*command, {"kinesphere tracks walk.csv --distance 0.5m --contacts near.csv",
+                          "kinesphere tracks flights.csv --separation cylinder:5NM:1000ft",
+                          "kinesphere tracks cars.csv --distance 2 --sizes --pairs pairs.csv"});
   return command;
 }
 
@@ -285,7 +326,8 @@ EngineRun run_engine(const Scene& scene, bool quiet) {
 }
 
 TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const TrackScene& scene,
-                       const Closeness& closeness, const ApproachFilter& filter) {
+                       const Closeness& closeness, const ApproachFilter& filter,
+                       const PositionErrors& errors) {
   TracksResult result{.approaches = approaches_in(scene.searched(), run.events),
                       .left_out = {},
                       .of_one_body = 0,
@@ -298,10 +340,20 @@ TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const Tr
                                            .vertical = *closeness.vertical,
                                            .tolerance = scene.scene.world.contact_tolerance},
                                           *scene.scene.motion, result.approaches);
+  if (track_set.has_rectangles || errors.any())
+    result.approaches =
+        approaches_of_rectangles(closeness.distance, scene.scene.world.contact_tolerance, *scene.scene.motion,
+                                 shapes_of(track_set), result.approaches, errors);
   result.of_one_body = leave_out_handovers(result.approaches, track_set);
   const bool found_none = result.approaches.empty();
   result.left_out = filter.apply(result.approaches);
-  find_closest(*scene.scene.motion, result.approaches, radii_of(track_set));
+  // Finer steps take more than they tell: what is found is refined.
+  constexpr double part_of_distance = 1e-4;
+  if (track_set.has_rectangles)
+    find_closest(*scene.scene.motion, result.approaches, shapes_of(track_set),
+                 part_of_distance * closeness.distance);
+  else
+    find_closest(*scene.scene.motion, result.approaches, radii_of(track_set));
   if (result.of_one_body > 0)
     print_message("kinesphere: warning: {}\n", warning_of_handovers(track_set, result.of_one_body));
   for (const std::string& warning : warnings_of(result.coverage, track_set, found_none))
@@ -316,7 +368,7 @@ TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const Tr
 void add_result(Summary& summary, const TracksOptions& options, const Closeness& closeness,
                 const TracksResult& result, const TrackSet& track_set) {
   summary.space();
-  add_approaches(summary, closeness, result.approaches);
+  add_approaches(summary, closeness, result.approaches, options.error);
   add_left_out(summary, options.choice, result.left_out);
   add_handovers(summary, track_set, result.of_one_body);
   add_vanishings(summary, result.vanishings, track_set);
@@ -329,24 +381,27 @@ void add_result(Summary& summary, const TracksOptions& options, const Closeness&
 }  // namespace
 
 int tracks(const TracksOptions& options) {
+  for (const std::string& file : options.files) require_input(file);
   const Closeness closeness = closeness_of(options.distance, options.separation);
   TracksFiles files(options);
   const TrackSet track_set = read_tracks(options.files, reading_for(closeness, options.reading));
   check_closeness(closeness, track_set);
   files.check(track_set);
   const ApproachFilter filter(options.choice, track_set);
-  const TrackScene scene = scene_of(track_set, {.distance = closeness.distance,
-                                                .vertical = closeness.vertical,
-                                                .tolerance = options.tolerance,
-                                                .interpolation = options.reading.chosen_interpolation(),
-                                                .from = filter.window().from,
-                                                .until = filter.window().until});
+  const PositionErrors errors = errors_of(options.error, closeness, track_set);
+  const TrackScene scene =
+      scene_of(track_set, {.distance = closeness.distance + largest_error(errors, track_set),
+                           .vertical = closeness.vertical,
+                           .tolerance = options.tolerance,
+                           .interpolation = options.reading.chosen_interpolation(),
+                           .from = filter.window().from,
+                           .until = filter.window().until});
   for (const std::string& warning : warnings_of(track_set, scene))
     print_message("kinesphere: warning: {}\n", warning);
   warn_of_distance(closeness, track_set);
 
   const EngineRun run = run_engine(scene.searched(), options.quiet);
-  const TracksResult result = result_of(run, track_set, scene, closeness, filter);
+  const TracksResult result = result_of(run, track_set, scene, closeness, filter, errors);
   files.write(track_set, scene.scene, result.approaches, closeness.distance);
   files.write_summary(options.files, track_set, scene, result);
   Summary summary;

@@ -16,6 +16,7 @@ struct TracksOptions {
   std::string distance;    ///< a number, and perhaps a unit
   std::string separation;  ///< sphere:LENGTH or cylinder:LENGTH:LENGTH, instead of `distance`
   std::optional<double> tolerance;
+  std::string error;  ///< of positions: LENGTH[:SPEED]; empty for none
   TrackOptions reading;
   ApproachChoice choice;
   std::string contacts, minima, pairs, plot, summary;  ///< files to write; empty for none

@@ -163,10 +163,19 @@ class VanishingSearch {
     if (closeness_.vertical) way.z = off.z = 0.0;
     const double square = norm_squared(way);
     const double part = std::clamp(square > 0.0 ? dot(off, way) / square : low, low, high);
-    const double distance = norm(off - part * way) - track.radius - place.track->radius;
+    const double time = from.time + part * duration;
+    const double distance =
+        track_set_.has_rectangles
+            ? gap_between(place.track->shape, pose_of(place.sample.position, *place.track, place.sample.time),
+                          track.shape,
+                          pose_of(from.position + part * (to.position - from.position), track, time))
+            : norm(off - part * way) - track.radius - place.track->radius;
     const bool is_level =
         !closeness_.vertical || std::abs(vertical_off - part * vertical_way) <= *closeness_.vertical;
-    return {from.time + part * duration, distance, is_level && distance <= closeness_.distance};
+    return {time, distance, is_level && distance <= closeness_.distance};
+  }
+  static RectanglePose pose_of(const Vec3& position, const RecordedTrack& track, double time) {
+    return {position, {}, track.shape.heading_at(time)};
   }
   static double part_of(double time, const TrackSample& from, const TrackSample& to) {
     return (time - from.time) / (to.time - from.time);

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "base/help_text.hpp"
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
 #include "serving/built_pages.hpp"
@@ -64,6 +65,8 @@ CLI::App* add_view_command(CLI::App& program, ViewOptions& options) {
   command->add_option("--port", options.port, "Port of 127.0.0.1; any that is free when not given")
       ->check(CLI::Range(0, 65535));
   command->add_flag("--no-browser", options.no_browser, "Print the address, and open no browser");
+  add_examples(*command, {"kinesphere view", "kinesphere view walk.csv --unit cm",
+                          "kinesphere run paper1 --record gas.ksr && kinesphere view gas.ksr"});
   return command;
 }
 

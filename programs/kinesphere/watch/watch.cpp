@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 
+#include "base/help_text.hpp"
 #include "base/output_file.hpp"
 #include "base/output_paths.hpp"
 #include "base/program_error.hpp"
@@ -31,6 +32,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "server of NATS has")
       ->capture_default_str();
   command->add_option("more", options.more_files)->group("");
+  command->option_defaults()->group("What is watched for");
   // Options that may be given several times take one value each: the FILE may come behind it.
   command
       ->add_option(
@@ -60,6 +62,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "--own", options.own,
           "Watch only the pairs with the track of this id; of AIS gps is the receiver's own position (RMC)")
       ->type_name("ID");
+  command->option_defaults()->group("Which ids are one body");
   command
       ->add_option(
           "--same", options.ids.same,
@@ -87,6 +90,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "heard, are told once until one of them gets under way; 0.5 m/s of vessels when not given, of "
           "others 0: no track is at rest")
       ->type_name("SPEED");
+  command->option_defaults()->group("Which alerts");
   command
       ->add_option(
           "--only", options.only,
@@ -110,7 +114,8 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->check(whole_number(std::uint64_t{1} << 53, 1));
   add_input_options(*command, options.choices, "plane|lonlat");
   command->add_option("--dimensions", options.dimensions, "2 or 3; else as the format has heights or not")
-      ->check(CLI::Range(2, 3));
+      ->check(CLI::Range(2, 3))
+      ->group(input_group);
   const auto measure = [command](const std::string& name, std::string& value, const std::string& description,
                                  const char* type, const char* group) {
     command->add_option(name, value, description)->type_name(type)->group(group);
@@ -209,6 +214,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "taken, beyond all of them the tracks in most of them leave; 1000000 when not given")
       ->check(whole_number(std::uint64_t{1} << 32, 1))
       ->group(reading);
+  command->option_defaults()->group("What comes out");
   command->add_option("--summary", options.summary, "Write the summary to this file, as JSON")
       ->type_name("FILE");
   command
@@ -218,6 +224,9 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->type_name("PORT");
   command->add_flag("--text", options.text, "Alerts are short lines to read, instead of JSON");
   command->add_flag("--quiet", options.quiet, "No summary and no warnings on standard error");
+  add_examples(*command, {"kinesphere watch tcp://127.0.0.1:30003 --separation cylinder:5NM:1000ft",
+                          "kinesphere watch ships.nmea --separation sphere:0.5NM --text",
+                          "kinesphere watch drones.jsonl --separation sphere:20 --largest-speed 20"});
   return command;
 }
 

@@ -11,9 +11,9 @@
 #include "base/ascii_text.hpp"
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
-#include "formats/converted/converted_table.hpp"
-#include "formats/converted/file_kind.hpp"
 #include "formats/nmea/nmea_line.hpp"
+#include "formats/recordings/file_kind.hpp"
+#include "formats/recordings/recording_kinds.hpp"
 #include "watch/class_rules.hpp"
 #include "watch/file_source.hpp"
 #include "watch/nats/nats_streams.hpp"
@@ -104,26 +104,26 @@ std::optional<StreamFormat> format_by(std::string_view beginning, const WatchOpt
     throw ProgramError(fmt::format("{}: expected a stream of reports, but it is {}", source.name(), kind));
   };
   const std::string other_kind = other_file_kind(beginning);
-  const bool is_live = source.nature() == ReportSource::Nature::live;
-  const auto format = recognised_format(beginning);
+  const auto shown = recognised_format(beginning);
   // Noise of a line may have zero bytes, too.
   const bool has_zeros = beginning.find('\0') != std::string_view::npos;
-  if (has_zeros && (!other_kind.empty() || !format)) refuse(other_kind.empty() ? "not text" : other_kind);
-  if (const std::string_view recording = kind_of_recording(beginning); !recording.empty()) {
+  if (has_zeros && (!other_kind.empty() || !shown)) refuse(other_kind.empty() ? "not text" : other_kind);
+  const ColumnHints& hints = options.choices.hints;
+  const auto format = format_of_text(beginning, hints);
+  if (format == StreamFormat::recording) {
+    const bool is_live = source.nature() == ReportSource::Nature::live;
     // Of a service that is asked again and again, each list is read when it comes.
     const bool is_pipe_of_now =
         source.nature() == ReportSource::Nature::unknown && options.clock == "arrival";
     if (is_json_list(beginning) && (is_live || is_pipe_of_now)) return StreamFormat::json;
-    if (!is_live) return StreamFormat::recording;
+    if (!is_live) return format;
     // Sentences of AIS may follow those of a receiver of GPS.
-    if (format != StreamFormat::nmea)
-      refuse(fmt::format("{}, which is read as a whole: from a file, or a pipe that ends", recording));
+    if (shown == StreamFormat::nmea) return shown;
+    refuse(fmt::format("{}, which is read as a whole: from a file, or a pipe that ends",
+                       recording_kind_of(beginning, hints)->name));
   }
-  // An option that names columns implies a table.
-  const bool has_columns = !options.choices.hints.columns.empty();
-  if (format && !is_table(*format) && !has_columns) return format;
-  if (are_json_lines(beginning)) return StreamFormat::json;
-  if (has_columns) return format == StreamFormat::ais ? *format : StreamFormat::csv;
+  const bool is_certain = format == StreamFormat::json || !hints.columns.empty();
+  if (format && (is_certain || !is_table(*format))) return format;
   // Some other files look like tables.
   if (!other_kind.empty() && (format || is_enough)) refuse(other_kind);
   return format || !is_enough ? format : StreamFormat::csv;

@@ -19,7 +19,7 @@ namespace {
 
 /// The file begins with this title, the length of the rest and its checksum, each as at least eight
 /// hexadecimal digits; then comes CBOR. Increase the number when the fields change.
-constexpr std::string_view snapshot_title = "kinesphere watch snapshot 12\n";
+constexpr std::string_view snapshot_title = "kinesphere watch snapshot 13\n";
 
 std::string heading(std::uint64_t size, std::uint32_t check) {
   return fmt::format("{}{:016x} {:08x}\n", snapshot_title, size, check);

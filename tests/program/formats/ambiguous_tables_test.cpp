@@ -1,7 +1,7 @@
 // Tables whose numbers would be something else if they were read as they look.
 #include <fmt/format.h>
 
-#include "formats/converted/file_kind.hpp"
+#include "formats/recordings/file_kind.hpp"
 #include "program/support.hpp"
 #include "tracks/track_file.hpp"
 

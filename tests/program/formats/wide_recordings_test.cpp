@@ -91,30 +91,6 @@ TEST(WideRecordings, OfPneuma) {
             "f:3: expected a number as longitude ('lon'), but got 'east'");
 }
 
-TEST(WideRecordings, OfGromacs) {
-  Random random(472);
-  const Places places = drawn_places(random, 5, 3);
-  const std::string head =
-      "# This file was created\n@    title \"Coordinate\"\n@    xaxis  label \"Time (ps)\"\n"
-      "@    yaxis  label \"Coordinate (nm)\"\n@TYPE xy\n@ legend on\n";
-  std::string legends, rows;
-  for (std::size_t column = 0; column < 9; ++column)
-    legends += fmt::format("@ s{} legend \"atom {} {}\"\n", column, 26 * (column / 3) + 1, "XYZ"[column % 3]);
-  for (std::size_t step = 0; step < places.size(); ++step) {
-    rows += fmt::format("{:12.4f}", 0.5 * double(step));
-    for (const Vec3& at : places[step]) rows += fmt::format(" {:9.3f} {:9.3f} {:9.3f}", at.x, at.y, at.z);
-    rows += '\n';
-  }
-  const TrackSet track_set = parse(head + legends + rows);
-  EXPECT_EQ(track_set.format, "coordinates of GROMACS (lengths in nm, times in ps)");
-  EXPECT_EQ(track_set.warnings.size(), 1u) << "its box is not known";
-  expect_places(track_set, places, 0.5,
-                [](std::size_t body) { return fmt::format("atom {}", 26 * body + 1); });
-  EXPECT_TRUE(error_in(head + "@ s0 legend \"RMSD\"\n0.0 1.0\n").starts_with("f: expected coordinates X, Y"));
-  EXPECT_EQ(error_in(head + legends + rows + "9.0 x 1 1 1 1 1 1 1 1\n"),
-            "f:21: expected a number as x of atom 1 (column 2), but got 'x'");
-}
-
 TEST(WideRecordings, WhatLooksLikeOneIsNamed) {
   for (const char* strava :
        {R"({"time":{"data":[0,1],"series_type":"distance"},"latlng":{"data":[[46.1,7.2],[46.2,7.3]]}})",

@@ -1,5 +1,8 @@
 // Bodies with a size (--sizes): distances between surfaces, times to collision, questions.
+#include <fmt/format.h>
+
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -27,12 +30,15 @@ TEST_F(SizesOf, DistancesAreBetweenSurfaces) {
   ASSERT_EQ(sized.exit_code, 0) << sized.err << sized.out;
   EXPECT_NE(sized.out.find("\nsizes             2 "), std::string::npos) << sized.out;
   EXPECT_NE(sized.out.find("  of the tracks, the largest of radius 5;"), std::string::npos) << sized.out;
+  EXPECT_NE(sized.out.find("\nheadings          1 "), std::string::npos) << sized.out;
   pair = nlohmann::json::parse(read_text(path("p.jsonl")));
-  EXPECT_NEAR(pair["least_distance_m"].get<double>(), 12.5, 1e-9);
-  EXPECT_NEAR(nlohmann::json::parse(read_text(path("m.jsonl")))["distance_m"].get<double>(), 12.5, 1e-9);
-  // Just before it brakes at 2 s, 22.5 m are left at 10 m/s; later 12.5 m at 5 m/s.
-  EXPECT_NEAR(pair["least_time_to_collision_s"].get<double>(), 2.25, 1e-9);
-  EXPECT_NEAR(pair["time_of_that"].get<double>(), 2.0, 1e-9);
+  // The bus never moves, so that it may stand in any direction; the car is 2 m long before its middle.
+  EXPECT_NEAR(pair["least_distance_m"].get<double>(), 13.0, 1e-9);
+  EXPECT_NEAR(nlohmann::json::parse(read_text(path("m.jsonl")))["distance_m"].get<double>(), 13.0, 1e-9);
+  // Just before it brakes at 2 s, 23 m are left at 10 m/s; later 13 m at 5 m/s.
+  EXPECT_NEAR(pair["least_time_to_collision_s"].get<double>(), 2.3, 1e-6);
+  EXPECT_NEAR(pair["time_of_that"].get<double>(), 2.0, 1e-6);
+  EXPECT_NEAR(pair["deceleration_to_avoid_crash_mps2"].get<double>(), 10.0 / (2.0 * 2.3), 1e-6);
 }
 
 TEST_F(SizesOf, NeverOnACourseOfCollisionIsEmpty) {
@@ -41,19 +47,137 @@ TEST_F(SizesOf, NeverOnACourseOfCollisionIsEmpty) {
                                  "b,0,0,20,4,3\nb,2,20,20,4,3\n");
   ASSERT_EQ(run("tracks " + file + " --sizes --distance 100 --pairs " + path("p.csv")).exit_code, 0);
   const std::string rows = read_text(path("p.csv"));
+  EXPECT_NE(rows.find("\na,b,1,2,17,0,,,,,,\n"), std::string::npos) << rows;
+}
+
+/// Spheres with heights: a rectangle does not say how high it is.
+TEST_F(SizesOf, WithHeightsAreSpheres) {
+  const std::string file = write("t.csv",
+                                 "id,time,x_m,y_m,z_m,length_m,width_m\na,0,0,0,0,4,3\na,2,20,0,0,4,3\n"
+                                 "b,0,0,20,0,4,3\nb,2,20,20,0,4,3\n");
+  ASSERT_EQ(run("tracks " + file + " --sizes --distance 100 --pairs " + path("p.csv")).exit_code, 0);
+  const std::string rows = read_text(path("p.csv"));
   EXPECT_NE(rows.find("\na,b,1,2,15,0,,,,\n"), std::string::npos) << rows;
 }
 
-TEST_F(SizesOf, PostEncroachmentTimeIsThatOfTheDiscs) {
-  // Discs of radius 1; the second passes the crossing 3 s after the first, at half its speed.
+TEST_F(SizesOf, PostEncroachmentTimeIsThatOfTheRectangles) {
+  // One is out of the other's lane at 5.7 s, which the other enters 1.4 m before the crossing at 8 s.
   const std::string file = write("t.csv",
                                  "id,time,x_m,y_m,length_m,width_m\na,0,-10,0,1.6,1.2\na,10,10,0,1.6,1.2\n"
                                  "b,0,0,-8,1.6,1.2\nb,10,0,2,1.6,1.2\n");
   const std::string options = " --sizes --distance 100 --interpolate linear --pairs " + path("p.jsonl");
   ASSERT_EQ(run("tracks " + file + options).exit_code, 0);
   const auto pair = nlohmann::json::parse(read_text(path("p.jsonl")));
-  EXPECT_NEAR(pair["post_encroachment_time_s"].get<double>(), 3.0 - std::sqrt(5.0), 1e-5);
-  EXPECT_NEAR(pair["time_of_entry"].get<double>(), 8.0 - 4.0 / std::sqrt(5.0), 1e-2);
+  EXPECT_NEAR(pair["post_encroachment_time_s"].get<double>(), 6.6 - 5.7, 1e-4);
+  EXPECT_NEAR(pair["time_of_entry"].get<double>(), 6.6, 1e-4);
+}
+
+/// Overtaking in the next lane is no collision, and one that follows enters no place of a conflict.
+TEST_F(SizesOf, CarsInLanesAreNoConflict) {
+  std::string table = "time,id,x_m,y_m,length_m,width_m\n";
+  for (int k = 0; k <= 100; ++k) {
+    const double t = 0.1 * k;
+    table += fmt::format("{0},fast,{1},0,5,2\n{0},slow,{2},3.5,5,2\n{0},behind,{3},0,5,2\n", t, 20 * t,
+                         50 + 10 * t, -30 + 20 * t);
+  }
+  const std::string file = write("t.csv", table), pairs = path("p.jsonl");
+  ASSERT_EQ(run("tracks " + file + " --sizes --distance 40 --pairs " + pairs).exit_code, 0);
+  std::istringstream lines(read_text(pairs));
+  int seen = 0;
+  for (std::string line; std::getline(lines, line); ++seen) {
+    const auto pair = nlohmann::json::parse(line);
+    const bool is_lane = pair["first"] != "slow" && pair["second"] != "slow";
+    EXPECT_NEAR(pair["least_distance_m"].get<double>(), is_lane ? 25.0 : 1.5, 1e-9) << line;
+    for (const char* never :
+         {"least_time_to_collision_s", "post_encroachment_time_s", "deceleration_to_avoid_crash_mps2"})
+      EXPECT_TRUE(pair[never].is_null()) << line;
+  }
+  EXPECT_EQ(seen, 3);
+}
+
+/// Two cars at 4 m: one crosses the other's front. Returns a table whose headings are told by `heading` from
+/// radians counterclockwise from x.
+std::string with_headings(const std::string& name, const std::function<double(double)>& heading) {
+  std::string table = "id,time,x_m,y_m,length_m,width_m," + name + "\n";
+  for (int k = 0; k <= 20; ++k) {
+    const double t = 0.5 * k;
+    table += fmt::format("a,{0},{1},0,4,2,{2}\nb,{0},40,{3},4,2,{4}\n", t, 3 * t, heading(0.0), 20 - 3 * t,
+                         heading(-1.5707963267948966));
+  }
+  return table;
+}
+
+TEST_F(SizesOf, HeadingsCountAsTheMotionShows) {
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  const std::pair<std::string, std::function<double(double)>> kinds[] = {
+      {"heading", [](double angle) { return angle / degree; }},
+      {"heading", [](double angle) { return angle; }},
+      {"yaw_deg", [](double angle) { return angle / degree; }},
+      {"psi_rad", [](double angle) { return angle + 6.283185307179586; }},
+      {"heading", [](double angle) { return 90.0 - angle / degree; }},
+      {"course", [](double angle) { return 450.0 - angle / degree; }}};
+  const auto least_distance = [&](const std::string& options) {
+    const ProgramRun result = run("tracks " + path("t.csv") + " --sizes --distance 50 --interpolate linear " +
+                                  options + " --pairs " + path("p.jsonl"));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(read_text(path("p.jsonl")))["least_distance_m"].get<double>();
+  };
+  for (const auto& [name, heading] : kinds) {
+    write("t.csv", with_headings(name, heading));
+    EXPECT_NEAR(least_distance(""), least_distance("--heading motion"), 1e-6) << name;
+  }
+  // A car that slides sideways fits nothing: the program asks, and an option answers.
+  write("t.csv", with_headings("heading", [&](double angle) { return angle / degree + 45.0; }));
+  expect_wrong_input("tracks " + path("t.csv") + " --sizes --distance 50",
+                     {"column 'heading' may count from the x axis", "--heading x-axis or --heading compass"});
+  write("t.csv", with_headings("heading_deg", [&](double angle) { return angle / degree + 45.0; }));
+  EXPECT_GT(std::abs(least_distance("--heading x-axis") - least_distance("--heading motion")), 0.1);
+  write("t.csv", braking);
+  expect_wrong_input("tracks " + path("t.csv") + " --sizes --distance 50 --heading compass",
+                     {"--heading: expected a column of headings"});
+}
+
+TEST_F(SizesOf, QuaternionsAreHeadings) {
+  // Two boxes of 4 m by 2 m that slide to the side, turned by 90 degrees: 10 m apart along x.
+  std::string rows;
+  for (int k = 0; k <= 10; ++k) {
+    const double w = std::sqrt(0.5), t = 0.1 * k, x = 2.0 * k;
+    rows += fmt::format(
+        "{{\"id\":\"a\",\"time\":{0},\"translation\":[{1},0,0.7],\"size\":[2,4,1.5],\"rotation\":[{2},0,0,{2}"
+        "]}}\n"
+        "{{\"id\":\"b\",\"time\":{0},\"translation\":[{3},0,0.7],\"size\":[2,4,1.5],\"rotation\":[{2},0,0,{2}"
+        "]}}\n",
+        t, x, w, x + 10.0);
+  }
+  const std::string file = write("n.json", rows);
+  const std::string options =
+      " --columns id=id,time=time,x=translation.0:m,y=translation.1:m,length=size.1:m,width=size.0:m --sizes "
+      "--distance 20 --pairs " +
+      path("p.jsonl");
+  ASSERT_EQ(run("tracks " + file + options).exit_code, 0);
+  EXPECT_NEAR(nlohmann::json::parse(read_text(path("p.jsonl")))["least_distance_m"].get<double>(), 8.0, 1e-6);
+  ASSERT_EQ(run("tracks " + file + options + " --heading motion").exit_code, 0);
+  EXPECT_NEAR(nlohmann::json::parse(read_text(path("p.jsonl")))["least_distance_m"].get<double>(), 6.0, 1e-6);
+}
+
+/// Positions of SUMO are those of the front, of highD those of a corner; cars on one spot stand in a column.
+TEST_F(SizesOf, PresetsKnowWhereOnTheCarItsPositionIs) {
+  std::string sumo =
+      "timestep_time;vehicle_id;vehicle_x;vehicle_y;vehicle_angle;vehicle_length;vehicle_width\n";
+  std::string highd = "frame,id,x,y,width,height,xVelocity,yVelocity\n";
+  for (int k = 0; k <= 20; ++k) {
+    sumo += fmt::format("{0};a;{1};0;90;5;2\n{0};b;{2};0;90;15;2\n", k, 10 * k, 40 + 10 * k);
+    highd += fmt::format("{0},1,{1},10,5,2,10,0\n{0},2,{2},12,15,3,10,0\n", k, k, 8 + k);
+  }
+  const auto least_distance = [&](const std::string& file, const std::string& options) {
+    const ProgramRun result =
+        run("tracks " + file + " --sizes --distance 50 --pairs " + path("p.jsonl") + " " + options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(read_text(path("p.jsonl")))["least_distance_m"].get<double>();
+  };
+  EXPECT_NEAR(least_distance(write("s.csv", sumo), "--positions plane --unit m"), 40.0 - 15.0, 1e-6);
+  // 0 to 5 and 8 to 23 along, 10 to 12 and 12 to 15 across.
+  EXPECT_NEAR(least_distance(write("h.csv", highd), ""), 3.0, 1e-6);
 }
 
 TEST_F(SizesOf, WhatIsMissingIsAskedFor) {

@@ -132,61 +132,78 @@ double ShipDimensions::radius() const {
   return std::hypot(std::max(bow, stern) + rounded, std::max(port, starboard) + rounded);
 }
 
-std::optional<AisMessage> ais_message_of(const AisBits& bits) {
-  constexpr std::size_t head = 38;
-  if (bits.size() < head)
-    throw MalformedRecord(
-        fmt::format("expected {} bits or more of a message, but got {}", head, bits.size()));
-  AisMessage message{.type = static_cast<int>(bits.number(0, 6)), .mmsi = bits.number(8, 30)};
+namespace {
+
+constexpr std::size_t head_bits = 38;
+
+/// Message 24: a name, or what kind of craft it is and how large.
+void read_static_data(const AisBits& bits, AisMessage& message) {
+  constexpr std::size_t bits_of_part = 2;
+  require_bits(bits, head_bits + bits_of_part, message.type);
+  const auto part = bits.number(head_bits, bits_of_part);
+  if (part == 0) message.name = name_at(bits, 40);
+  if (part != 1 || is_craft_of_a_ship(message.mmsi)) return;
+  require_bits(bits, 162, message.type);
+  message.dimensions = dimensions_at(bits, 132);
+  message.ship_type = static_cast<int>(bits.number(40, 8));
+}
+
+/// Reads what a type of messages has behind its head; returns false for a type that is not read.
+bool read_body(const AisBits& bits, AisMessage& message) {
   switch (message.type) {
     case 1:
     case 2:
     case 3:
       require_bits(bits, 149, message.type);
       message.position = class_a_position(bits);
-      break;
+      return true;
     case 5:
       require_bits(bits, 270, message.type);
       message.name = name_at(bits, 112);
       message.dimensions = dimensions_at(bits, 240);
       message.ship_type = static_cast<int>(bits.number(232, 8));
-      break;
+      return true;
     case 9:
       require_bits(bits, 148, message.type);
       message.position = search_aircraft_position(bits);
-      break;
+      return true;
     case 18:
       require_bits(bits, 148, message.type);
       message.position = class_b_position(bits);
-      break;
+      return true;
     case 19:
       require_bits(bits, 306, message.type);
       message.position = class_b_position(bits);
       message.name = name_at(bits, 143);
       message.dimensions = dimensions_at(bits, 271);
       message.ship_type = static_cast<int>(bits.number(263, 8));
-      break;
+      return true;
     case 21:
       require_bits(bits, 270, message.type);
       message.position = aid_position(bits);
       message.name = name_at(bits, 43);
       message.dimensions = dimensions_at(bits, 219);
-      break;
+      return true;
     case 24:
-      require_bits(bits, head + 2, message.type);
-      if (bits.number(head, 2) == 0) message.name = name_at(bits, 40);
-      if (bits.number(head, 2) != 1 || is_craft_of_a_ship(message.mmsi)) break;
-      require_bits(bits, 162, message.type);
-      message.dimensions = dimensions_at(bits, 132);
-      message.ship_type = static_cast<int>(bits.number(40, 8));
-      break;
+      read_static_data(bits, message);
+      return true;
     case 27:
       require_bits(bits, 95, message.type);
       message.position = long_range_position(bits);
-      break;
+      return true;
     default:
-      return std::nullopt;
+      return false;
   }
+}
+
+}  // namespace
+
+std::optional<AisMessage> ais_message_of(const AisBits& bits) {
+  if (bits.size() < head_bits)
+    throw MalformedRecord(
+        fmt::format("expected {} bits or more of a message, but got {}", head_bits, bits.size()));
+  AisMessage message{.type = static_cast<int>(bits.number(0, 6)), .mmsi = bits.number(8, 30)};
+  if (!read_body(bits, message)) return std::nullopt;
   if (message.mmsi == 0 || message.mmsi > 999'999'999)
     throw MalformedRecord(fmt::format("expected an MMSI of at most nine digits in message {}, but got {}",
                                       message.type, message.mmsi));

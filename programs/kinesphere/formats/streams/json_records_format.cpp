@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/streams/report_format.hpp"
+#include "formats/streams/row_reports.hpp"
 #include "formats/tables/json_rows.hpp"
 
 namespace kinesphere::program {
@@ -20,58 +20,59 @@ class JsonRecordsFormat final : public ReportFormat {
   void read(const Record& record, ReportSink& sink) override {
     if (!record.is_whole) throw MalformedRecord("expected a whole line, but it is too long or cut off");
     if (record.text.find_first_not_of(" \t\r") == std::string_view::npos) return;
-    const std::size_t known = rows_.names().size();
+    const std::size_t known = rows_.table.names().size();
     try {
       std::string_view text = record.text;
       if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
       ondemand::document document = reader_.open(text);
       rows_.add_document(document, record.line);
-      if (rows_.names().size() > known)
+      if (rows_.table.names().size() > known)
         take_new_names(record, sink);
       else if (table_)
         read_rows(*table_, record, sink);
       else
         pass_without_columns(sink);
-      rows_.forget(rows_.names().size());
+      rows_.table.forget(rows_.table.names().size());
     } catch (const simdjson::simdjson_error& error) {
-      rows_.forget(known);
+      rows_.table.forget(known);
       throw MalformedRecord(std::string("expected a JSON object: ") + error.what());
     } catch (const WrongInput&) {
-      rows_.forget(table_ ? names_taken_ : known);
+      rows_.table.forget(table_ ? names_taken_ : known);
       throw;
     }
   }
-  void finish(ReportSink& sink) override {
-    if (table_) return table_->finish(sink);
+  void finish(ReportSink& /*sink*/) override {
+    if (table_) return table_->reports().finish();
     if (without_columns_ > 0) throw ProgramError(question_);
   }
-  const RowReader* rows() const override { return table_ ? table_->rows() : nullptr; }
+  const RowReader* rows() const override { return table_ ? table_->reports().rows() : nullptr; }
 
   nlohmann::json save() const override {
-    return {{"names", rows_.names()}, {"table", table_ ? table_->save() : nlohmann::json()}};
+    return {{"names", rows_.table.names()},
+            {"first", table_ ? table_->head().first : std::vector<std::string>()},
+            {"table", table_ ? table_->reports().save() : nlohmann::json()}};
   }
   void restore(const nlohmann::json& state) override {
-    rows_.begin_row(0);
-    for (const std::string name : state.at("names")) rows_.set(name, "");
-    rows_.forget(rows_.names().size());
-    names_taken_ = rows_.names().size();
+    for (const std::string name : state.at("names")) rows_.table.column_of(name);
+    names_taken_ = rows_.table.names().size();
     if (state.at("table").is_null()) return;
-    table_ = make_csv_format(choices_);
-    table_->restore(state.at("table"));
+    const auto first = state.at("first").get<std::vector<std::string>>();
+    table_ = std::make_unique<NamedRows>(rows_.table, choices_);
+    table_->take_first({first.begin(), first.end()});
+    table_->reports().restore(state.at("table"));
   }
 
  private:
   /// A row of a list that is wrong does not take the others along.
-  void read_rows(ReportFormat& table, const Record& record, ReportSink& sink) const {
-    rows_.for_each([&](std::size_t, const std::string& row) {
-      Record as_row = record;
-      as_row.text = row;
+  void read_rows(NamedRows& table, const Record& record, ReportSink& sink) {
+    for (std::size_t row = 0; row < rows_.table.size(); ++row) {
+      rows_.table.read(row, fields_);
       try {
-        table.read(as_row, sink);
+        table.read(fields_, record.line, sink);
       } catch (const WrongInput& error) {
         sink.refuse(record.line, error.what());
       }
-    });
+    }
   }
 
   /// The first records may be of another kind, without positions.
@@ -84,19 +85,17 @@ class JsonRecordsFormat final : public ReportFormat {
   /// Begins the table anew with a header that has the new names. A later record whose names make it unclear
   /// what the columns are is malformed.
   void take_new_names(const Record& record, ReportSink& sink) {
-    std::unique_ptr<ReportFormat> table = make_csv_format(choices_);
-    const std::string header = rows_.header();
-    table->read({.text = header}, sink);
+    auto table = std::make_unique<NamedRows>(rows_.table, choices_);
     try {
       read_rows(*table, record, sink);
     } catch (const ProgramError& error) {
       if (table_) throw MalformedRecord(error.what());
       // An option is missing.
-      if (table->rows() != nullptr) throw;
+      if (table->reports().rows() != nullptr) throw;
       question_ = error.what();
       return pass_without_columns(sink);
     }
-    names_taken_ = rows_.names().size();
+    names_taken_ = rows_.table.names().size();
     if (table_) retired_.push_back(std::move(table_));
     table_ = std::move(table);
   }
@@ -108,9 +107,10 @@ class JsonRecordsFormat final : public ReportFormat {
   // Before there is a table.
   std::size_t without_columns_ = 0;
   std::string question_;
-  std::unique_ptr<ReportFormat> table_;
+  std::unique_ptr<NamedRows> table_;
+  std::vector<std::string_view> fields_;  ///< of the row
   /// Earlier tables, to whose texts reports refer that a sink has kept. There are no more than names.
-  std::vector<std::unique_ptr<ReportFormat>> retired_;
+  std::vector<std::unique_ptr<NamedRows>> retired_;
 };
 
 }  // namespace

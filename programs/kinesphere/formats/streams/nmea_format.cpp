@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "formats/converted/gps_fix.hpp"
 #include "formats/fields/field_text.hpp"
 #include "formats/fields/units.hpp"
 #include "formats/nmea/ais_message.hpp"
 #include "formats/nmea/nmea_line.hpp"
+#include "formats/recordings/gps_fix.hpp"
 #include "formats/streams/ground_speed.hpp"
 #include "formats/streams/known_names.hpp"
 #include "formats/streams/recent_values.hpp"

@@ -11,8 +11,8 @@
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/converted/converted_table.hpp"
 #include "formats/nmea/nmea_line.hpp"
+#include "formats/recordings/recording_kinds.hpp"
 #include "formats/tables/presets.hpp"
 
 namespace kinesphere::program {
@@ -67,6 +67,19 @@ std::optional<StreamFormat> format_named(std::string_view name, std::string_view
     if (row.name == name) return row.format;
   if (name == "dma") return StreamFormat::ais;
   return name == "table" || preset_named(name) != nullptr ? std::optional(StreamFormat::csv) : std::nullopt;
+}
+
+std::optional<StreamFormat> format_of_text(std::string_view beginning, const ColumnHints& hints) {
+  constexpr std::size_t enough = 4096;
+  const auto said = format_named(hints.format, beginning.substr(0, enough));
+  // Sentences are messages of AIS, or a log of one receiver.
+  if (!said || is_table(*said) || *said == StreamFormat::nmea)
+    if (const RecordingKind* const kind = recording_kind_of(beginning, hints))
+      return kind->read == read_json_lines ? StreamFormat::json : StreamFormat::recording;
+  if (said) return said;
+  const auto shown = recognised_format(beginning.substr(0, enough));
+  if (hints.columns.empty()) return shown;
+  return shown == StreamFormat::ais ? StreamFormat::ais : StreamFormat::csv;
 }
 
 std::string format_names() {

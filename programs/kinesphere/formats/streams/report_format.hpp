@@ -47,6 +47,10 @@ std::string_view name_of(StreamFormat format);
 /// Returns the format that --format says of a text with this beginning; nothing for an unknown name. Messages
 /// and tables of OpenSky have one name: without a beginning they are messages.
 std::optional<StreamFormat> format_named(std::string_view name, std::string_view beginning = {});
+/// Returns the format of a text with this beginning, of some thousand bytes or the whole of it: as --format
+/// says or, without it, as the text shows; of these recordings come first, then messages, and --columns
+/// implies a table. Nothing if it is ambiguous: a table, or too little of a text.
+std::optional<StreamFormat> format_of_text(std::string_view beginning, const ColumnHints& hints);
 /// Returns the names of all formats of messages and of all presets of tables, separated by |.
 std::string format_names();
 
@@ -68,7 +72,6 @@ struct FormatChoices {
   /// The whole file is read: each row of a table has as many fields as the first, and what is asked about is
   /// never only a damaged line. Reports of tables then have no velocity, errors and kind.
   bool is_recording = false;
-  std::string title;  ///< of a converted table: its format
   /// nmea: if not empty, sentences RMC are reports of a track of this id, in place of VDO.
   std::string own_by_gps{};
   /// If not empty, asked between the rows of a recording; true ends it there.

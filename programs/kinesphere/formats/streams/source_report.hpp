@@ -22,10 +22,12 @@ struct DeclaredError {
   std::string_view declaration{};
 };
 
-/// The time and position of a row in its own numbers, whose units the columns say.
+/// The time, position and shape of a row in its own numbers, whose units the columns say.
 struct WrittenSample {
   std::optional<TimeField> time{};
   Vec3 position{};
+  double length = 0.0, width = 0.0;  ///< metres; 0: not known
+  std::optional<double> heading{};   ///< which way the body points
 };
 
 /// Lengths and times are in the units of the stream: metres and seconds if it has units.
@@ -94,6 +96,8 @@ enum class Passed {
 class ReportSink {
  public:
   virtual ~ReportSink() = default;
+  /// Receives the line of the row that is read next, where one record has many rows.
+  virtual void begin_row(std::size_t /*line*/) {}
   virtual void take(const SourceReport& report) = 0;
   /// Receives a row of a table that lacks its time or position.
   virtual void take_incomplete(const SourceReport&) { pass_over(Passed::no_position); }

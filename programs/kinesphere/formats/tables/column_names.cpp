@@ -69,7 +69,8 @@ constexpr QuantityNames quantities[quantity_count] = {
     {Quantity::climb_error, "climb_error", Measure::speed, "climberror"},
     {Quantity::stamp_error, "stamp_error", Measure::time, "stamperror"},
     {Quantity::length, "length", Measure::length, "vehiclelength objectlength"},
-    {Quantity::width, "width", Measure::length, "vehiclewidth objectwidth"}};
+    {Quantity::width, "width", Measure::length, "vehiclewidth objectwidth"},
+    {Quantity::heading, "heading", Measure::angle, "yaw psi headingangle yawangle"}};
 
 const QuantityNames& names_of(Quantity quantity) { return quantities[static_cast<std::size_t>(quantity)]; }
 

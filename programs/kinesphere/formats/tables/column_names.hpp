@@ -35,8 +35,9 @@ enum class Quantity {
   stamp_error,
   length,
   width,
+  heading,  ///< which way a body points
 };
-inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::width) + 1;
+inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::heading) + 1;
 
 Measure measure_of(Quantity quantity);
 /// Returns the key of --columns: id, time, lon and so on.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -10,16 +9,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "base/ascii_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/fields/field_text.hpp"
 #include "formats/fields/json_reading.hpp"
 #include "formats/fields/time_text.hpp"
 #include "formats/tables/column_names.hpp"
+#include "formats/tables/row_table.hpp"
 
 namespace kinesphere::program {
 
@@ -27,10 +24,9 @@ namespace kinesphere::program {
 class JsonRows {
  public:
   void add(ondemand::object object, std::size_t line) {
-    begin_row(line);
+    table.begin_row(line);
     add_fields("", object, 1);
   }
-  void begin_row(std::size_t line) { rows_.push_back({line, {}}); }
   /// Adds an object, or the objects of a list. Throws MalformedRecord for other documents.
   void add_document(ondemand::document& document, std::size_t line) {
     if (document.type() != ondemand::json_type::array) {
@@ -41,29 +37,13 @@ class JsonRows {
     require_end(document, "one JSON object, or one list of objects, in a line");
   }
 
-  const std::vector<std::string>& names() const { return names_; }
+  RowTable table{"JSON records"};
+
   /// Returns the name of a list of objects that was too long for columns, or of the list that it is in; empty
   /// if there was none.
   const std::string& long_list() const { return long_list_; }
   /// True if another list of objects was too long for columns.
   bool has_several_lists() const { return has_several_lists_; }
-  /// Returns the names as the header of a table.
-  std::string header() const {
-    std::string header;
-    for (const std::string& name : names_) header += (header.empty() ? "" : ",") + quoted_field(name);
-    return header;
-  }
-  /// Calls `action` with the line of each row, and with its text as that of a table.
-  template <class Action>
-  void for_each(Action action) const {
-    for (const Row& row : rows_) action(row.line, text_of(row));
-  }
-  /// Forgets all rows, and the names behind the first `count`.
-  void forget(std::size_t count) {
-    rows_.clear();
-    for (; names_.size() > count; names_.pop_back()) columns_.erase(names_.back());
-  }
-
   /// Sets what the row that was begun last has of this name. `depth` is the number of objects and lists
   /// around the value.
   void add_value(const std::string& name, ondemand::value value, std::size_t depth = 1) {
@@ -74,12 +54,12 @@ class JsonRows {
     switch (value.type()) {
       case ondemand::json_type::object: {
         ondemand::object object = value.get_object();
-        if (auto time = time_of_ros(object)) return set(name, *std::move(time));
+        if (const auto time = time_of_ros(object)) return set(name, *time);
         return add_fields(name + '.', object, depth + 1);
       }
       case ondemand::json_type::array: {
-        // Longer lists are no positions.
-        constexpr std::size_t longest = 3;
+        // Longer lists are no positions, but a quaternion may say how a body is turned.
+        const std::size_t longest = plain_name(name).ends_with("rotation") ? 4 : 3;
         ondemand::array list = value.get_array();
         if (list.count_elements() > longest) return note_list(name, list);
         std::size_t place = 0;
@@ -88,22 +68,21 @@ class JsonRows {
         return;
       }
       case ondemand::json_type::string:
-        return set(name, quoted_field(dated_text(name, value.get_string())));
+        return set(name, dated_text(name, value.get_string()));
       case ondemand::json_type::null:
         return set(name, "");
       default:
         // Numbers keep all their digits.
-        return set(name, std::string(token_of(value)));
+        return set(name, token_of(value));
     }
   }
-  void set(const std::string& name, std::string field) {
-    const auto [place, is_new] = columns_.emplace(name, names_.size());
-    if (is_new) names_.push_back(name);
+  void set(const std::string& name, std::string_view field) {
+    const std::size_t column = table.column_of(name);
     // Objects whose keys are ids or times would need a field for each of them in each row.
     constexpr std::size_t most_columns = 1000;
-    if (names_.size() > most_columns)
+    if (table.names().size() > most_columns)
       throw MalformedRecord(fmt::format("expected records of at most {} names, but got more", most_columns));
-    rows_.back().fields.emplace_back(place->second, std::move(field));
+    table.set(column, field);
   }
 
  private:
@@ -121,12 +100,6 @@ class JsonRows {
       return;
     }
   }
-
-  struct Row {
-    std::size_t line;
-    /// Columns and texts; the last text of a column counts. Many rows have few of all columns.
-    std::vector<std::pair<std::size_t, std::string>> fields;
-  };
 
   /// Returns a text of 14 digits that is a date by its name and its digits, as rxtime of AIS-catcher is, as
   /// 20240131T123015; else the text.
@@ -154,11 +127,6 @@ class JsonRows {
     }
     return std::nullopt;
   }
-  std::string text_of(const Row& row) const {
-    std::vector<std::string_view> texts(names_.size());
-    for (const auto& [column, text] : row.fields) texts[column] = text;
-    return fmt::format("{}", fmt::join(texts, ","));
-  }
   void add_fields(const std::string& prefix, ondemand::object object, std::size_t depth) {
     for (auto field : object) {
       const std::string name = prefix + std::string(std::string_view(field.unescaped_key()));
@@ -166,11 +134,8 @@ class JsonRows {
     }
   }
 
-  std::vector<std::string> names_;
   std::string long_list_;
   bool has_several_lists_ = false;
-  std::unordered_map<std::string, std::size_t> columns_;
-  std::vector<Row> rows_;
 };
 
 /// The line of a document that has been read so far.

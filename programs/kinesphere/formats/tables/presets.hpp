@@ -14,11 +14,12 @@ struct Preset {
   std::string_view name;   ///< of --format
   std::string_view title;  ///< in the summary
   /// Columns as --columns has them. `a|b` is the first that the table has, `key?=a` may be absent, `a*`
-  /// begins with a, and `id=@file` is the name of the file, which has one body.
+  /// begins with a, and `id=@file` is the name of the file, which has one body. Courses are clockwise from
+  /// north, headings counterclockwise from the x axis.
   std::string_view columns;
   /// Names that the header must have to be recognised, separated by commas, as in `columns`; empty: the
   /// header does not tell.
-  std::string_view header;
+  std::string_view header{};
   double frame_rate = 0.0;  ///< frames per second; 0: unknown, or no frames
   DateOrder dates = DateOrder::unknown;
   std::string_view where{};  ///< rows that count
@@ -26,6 +27,7 @@ struct Preset {
   std::size_t least_columns = 0;  ///< of a table without a header
   bool has_own_heights = false;   ///< its heights are those of the bodies themselves, not of their places
   bool has_own_origin = false;    ///< times or places count from the start of each body
+  TableColumns::Place place = TableColumns::Place::middle;
 };
 
 /// Returns the preset of --format; null for another name.

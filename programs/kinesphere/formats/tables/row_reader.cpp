@@ -133,7 +133,7 @@ void RowReader::check_likelihood() const {
 }
 
 std::string RowReader::wrong_text(std::size_t column, std::string_view expected) const {
-  const std::string where = columns_.is_converted && column < head_.names.size()
+  const std::string where = columns_.has_named_fields && column < head_.names.size()
                                 ? fmt::format("'{}'", head_.names[column])
                                 : fmt::format("column {}", column + 1);
   return fmt::format("expected {} ({}), but got {}", expected, where, shown_field(field(column)));
@@ -372,6 +372,19 @@ std::optional<double> RowReader::number(Quantity quantity) {
                      number_advice(text));
   if (!missing_) missing_ = {column->place, name_of(quantity)};
   return std::nullopt;
+}
+
+std::optional<double> RowReader::turned_axis() const {
+  std::array<double, 4> parts{};
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const auto number = columns_.rotation && (*columns_.rotation)[k] < fields_->size()
+                            ? number_field(field((*columns_.rotation)[k]), columns_.decimal_comma)
+                            : std::nullopt;
+    if (!number) return std::nullopt;
+    parts[k] = *number;
+  }
+  const auto [w, x, y, z] = parts;
+  return std::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
 }
 
 /// Returns the number of a longitude or latitude, negative in the west or south. `letters` name the

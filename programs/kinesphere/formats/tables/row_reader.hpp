@@ -62,6 +62,9 @@ class RowReader {
   std::optional<TimeField> time(Quantity quantity = Quantity::time);
   /// Returns nothing for a missing number, or if there is no such column.
   std::optional<double> number(Quantity quantity);
+  /// Returns the angle, in radians counterclockwise from the x axis, to which the quaternion of the row turns
+  /// that axis; nothing if it is missing, or if there are no such columns.
+  std::optional<double> turned_axis() const;
   /// Returns x, y, z, or degrees east and north and z; z is 0 if it is missing or there is no such column.
   /// Nothing if x or y is missing; so are 181 and 91 as longitude and latitude, with which AIS says that it
   /// knows none.

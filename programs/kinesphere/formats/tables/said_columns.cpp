@@ -121,6 +121,8 @@ TableColumns preset_columns(const TableHead& head, const Preset& preset) {
   columns.has_own_heights = preset.has_own_heights;
   columns.has_own_origin = preset.has_own_origin;
   columns.film = preset.film;
+  columns.place = preset.place;
+  columns.heading_is_from_x = columns[Quantity::heading].has_value();
   columns.dates = preset.dates;
   columns.where = preset.where;
   if (preset.frame_rate > 0.0) {

@@ -7,13 +7,14 @@
 namespace kinesphere::program {
 
 /// Tables are `csv`, and `ais` where their tracks are ships. `json` are JSON records in lines, and
-/// `recording` is what is converted to a table as a whole, as rows of a table. The others are messages.
+/// `recording` is what is read as a whole; both have rows of a table. The others are messages.
 enum class StreamFormat { readsb, sbs, opensky, ais, nmea, csv, jsonl, json, recording };
-constexpr bool becomes_table(StreamFormat format) {
+/// True for what a file shows as a recording, and not as the text of a table.
+constexpr bool is_read_whole(StreamFormat format) {
   return format == StreamFormat::json || format == StreamFormat::recording;
 }
 constexpr bool is_table(StreamFormat format) {
-  return format == StreamFormat::csv || format == StreamFormat::ais || becomes_table(format);
+  return format == StreamFormat::csv || format == StreamFormat::ais || is_read_whole(format);
 }
 
 /// Returns the first line that says something, which comments of one column do not: of JSON over several

@@ -44,6 +44,24 @@ void require_sizes(const TableHead& head, const TableColumns& columns) {
                     head.file));
 }
 
+/// Finds the columns of a quaternion, where no other says which way bodies point.
+void find_rotation(const TableHead& head, TableColumns& columns) {
+  if (columns[Quantity::heading] || columns[Quantity::course]) return;
+  constexpr std::array<std::array<std::string_view, 4>, 2> names{
+      {{"qw", "qx", "qy", "qz"}, {"rotation0", "rotation1", "rotation2", "rotation3"}}};
+  for (const auto& four : names) {
+    std::array<std::size_t, 4> places{};
+    const bool has_all = std::ranges::all_of(four, [&](const std::string_view& name) {
+      const auto found =
+          std::ranges::find_if(head.names, [&](const std::string& each) { return plain_name(each) == name; });
+      places[static_cast<std::size_t>(&name - four.data())] =
+          static_cast<std::size_t>(found - head.names.begin());
+      return found != head.names.end();
+    });
+    if (has_all) columns.rotation = places;
+  }
+}
+
 /// True where a column of widths has the same name: height and width, bb_h and bb_w.
 bool is_height_of_box(const TableHead& head, std::string_view name) {
   const std::string plain = plain_name(name);
@@ -235,7 +253,8 @@ void require_columns(const TableHead& head, const ColumnHints& hints, const Tabl
                       hints.columns));
     throw ProgramError(missing_columns_text(head, columns));
   }
-  if (has(Quantity::vx) != has(Quantity::vy) || (has(Quantity::course) && !has(Quantity::speed)) ||
+  if (has(Quantity::vx) != has(Quantity::vy) ||
+      (has(Quantity::course) && !has(Quantity::speed) && !hints.sizes) ||
       (has(Quantity::vx) && has(Quantity::speed)))
     throw ProgramError(
         fmt::format("{}: expected either vx and vy or speed and course, or neither: say which with --columns",
@@ -262,7 +281,8 @@ void list_unused(const TableHead& head, TableColumns& columns) {
         std::any_of(
             columns.bodies.begin(), columns.bodies.end(),
             [&](const auto& body) { return body.x == place || body.y == place || body.z == place; }) ||
-        columns.east_or_west == place || columns.north_or_south == place || columns.nanoseconds == place;
+        columns.east_or_west == place || columns.north_or_south == place || columns.nanoseconds == place ||
+        (columns.rotation && std::ranges::count(*columns.rotation, place) > 0);
     if (!is_used) columns.unused.push_back(place);
   }
 }
@@ -293,6 +313,7 @@ TableColumns find_columns(const TableHead& head, const ColumnHints& hints, Colum
   columns.file_advice = columns_option("id=@file," + columns_text(head, columns, {}, {}, Quantity::id));
   ask_for_units_of_craft(head, columns);
   find_hemispheres(head, columns);
+  if (hints.sizes) find_rotation(head, columns);
   if (columns.geographic && columns.z() && !columns.z()->has_unit) columns.format += ", heights in m";
   if (!hints.where.empty())
     columns.where =

@@ -23,7 +23,7 @@ struct ColumnHints {
   std::string positions;             ///< plane, lonlat or utm:33N
   std::string where;                 ///< rows that count
   DateOrder dates = DateOrder::unknown;
-  bool sizes = false;  ///< length and width are read
+  bool sizes = false;  ///< length, width and heading are read
 };
 
 /// What is read: positions alone, or also velocities, errors and times of arrival.
@@ -37,8 +37,8 @@ struct Column {
 };
 
 struct TableColumns {
-  std::string format;         ///< recognised format
-  bool is_converted = false;  ///< the file is no table: messages name its fields instead of columns
+  std::string format;             ///< recognised format
+  bool has_named_fields = false;  ///< the file is no table: messages name fields instead of columns
   std::array<std::optional<Column>, quantity_count> of{};
   const std::optional<Column>& operator[](Quantity quantity) const {
     return of[static_cast<std::size_t>(quantity)];
@@ -58,9 +58,14 @@ struct TableColumns {
   /// every sixth at 15 or tenth at 25 frames/s (ETH).
   enum class Film { none, ucy, eth } film = Film::none;
 
-  bool geographic = false;       ///< x and y are longitude and latitude
-  bool in_metres = false;        ///< the unit of lengths is known
-  bool positions_said = false;   ///< an option, a name or a preset says whether positions are degrees
+  bool geographic = false;      ///< x and y are longitude and latitude
+  bool in_metres = false;       ///< the unit of lengths is known
+  bool positions_said = false;  ///< an option, a name or a preset says whether positions are degrees
+  /// Where on a body its position is, as a preset says.
+  enum class Place { middle, front, upper_left } place = Place::middle;
+  bool heading_is_from_x = false;  ///< headings are counterclockwise from the x axis, as a preset says
+  /// Columns of a quaternion that turns the x axis to where a body points: w, x, y, z.
+  std::optional<std::array<std::size_t, 4>> rotation;
   bool is_ais = false;           ///< speeds of 102.3 kt and courses of 360 degrees are unknown
   std::string where;             ///< rows that count, by the preset and by --where
   bool id_is_file = false;       ///< the file has one body, called like it

@@ -36,6 +36,11 @@ std::string TableHead::text() const {
 void TableHeadReader::comment(std::string_view line) { head_.comments.emplace_back(trimmed(line)); }
 
 bool TableHeadReader::row(const std::vector<std::string_view>& fields) {
+  is_complete_ = is_complete_ || completes_head(fields);
+  return is_complete_ && !std::equal(fields.begin(), fields.end(), head_.names.begin(), head_.names.end());
+}
+
+bool TableHeadReader::completes_head(const std::vector<std::string_view>& fields) {
   const bool decimal_comma = has_decimal_commas(head_.separator);
   const bool has_number = std::any_of(fields.begin(), fields.end(), [&](std::string_view field) {
     return number_field(field, decimal_comma).has_value();

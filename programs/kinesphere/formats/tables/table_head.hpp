@@ -33,15 +33,19 @@ class TableHeadReader {
   void comment(std::string_view line);
   /// The rows have a column more than the header, before its first.
   void add_row_names() { head_.names.insert(head_.names.begin(), ""); }
-  /// Takes a row; returns true if it is the first row of values, with which the head is complete.
+  /// Takes a row, and returns true if it has values: it is neither of the head, nor the header again.
   bool row(const std::vector<std::string_view>& fields);
+  /// True from the first row of values on, with which the head is complete.
+  bool is_complete() const { return is_complete_; }
 
   const TableHead& head() const { return head_; }
 
  private:
+  bool completes_head(const std::vector<std::string_view>& fields);
   bool is_below_header(const std::vector<std::string_view>& fields) const;
 
   TableHead head_;
+  bool is_complete_ = false;
   int rows_below_ = 0;  ///< of the header, that belong to it
 };
 

@@ -45,9 +45,10 @@ const std::vector<std::string_view>* TextTable::read(const Record& record) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const std::string_view content = trimmed(text);
   if (content.empty() || is_rule(content)) return nullptr;
-  if (!has_begun_) beginning_.emplace_back(text);
+  const bool has_begun = head_.is_complete();
+  if (!has_begun) beginning_.emplace_back(text);
   if (const auto comment = comment_in(content)) {
-    if (!has_begun_) head_.comment(*comment);
+    if (!has_begun) head_.comment(*comment);
     return nullptr;
   }
   if (columns_ == 0 && says_separator(content)) return nullptr;
@@ -61,19 +62,16 @@ const std::vector<std::string_view>* TextTable::read(const Record& record) {
   if (fields_.size() == columns_ + 1 && !head().names.empty()) {
     if (fields_.back().empty()) {
       fields_.pop_back();
-    } else if (!has_begun_ && have_row_name(fields_, content, row_.separator())) {
+    } else if (!has_begun && have_row_name(fields_, content, row_.separator())) {
       head_.add_row_names();
       ++columns_;
     }
   }
   if (has_equal_rows_ && fields_.size() != columns_)
     throw WrongInput(fmt::format(
-        "expected {} columns{}, but got {}{}", columns_, has_begun_ ? "" : " as in the first line",
-        fields_.size(), has_begun_ ? "" : " (lines above the header have to be left out or begin with #)"));
-  if (!has_begun_) has_begun_ = head_.row(fields_);
-  const auto& names = head().names;
-  return has_begun_ && !std::equal(fields_.begin(), fields_.end(), names.begin(), names.end()) ? &fields_
-                                                                                               : nullptr;
+        "expected {} columns{}, but got {}{}", columns_, has_begun ? "" : " as in the first line",
+        fields_.size(), has_begun ? "" : " (lines above the header have to be left out or begin with #)"));
+  return head_.row(fields_) ? &fields_ : nullptr;
 }
 
 }  // namespace kinesphere::program

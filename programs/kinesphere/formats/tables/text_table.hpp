@@ -32,7 +32,6 @@ class TextTable {
  private:
   TableHeadReader head_;
   bool has_equal_rows_;
-  bool has_begun_ = false;  ///< a row of values was read
   std::size_t columns_ = 0;
   std::vector<std::string> beginning_;
   RowSplitter row_;

@@ -14,7 +14,10 @@
 namespace kinesphere::program {
 namespace {
 
-bool is_size(Quantity quantity) { return quantity == Quantity::length || quantity == Quantity::width; }
+/// True for what --sizes needs of a body.
+bool is_of_shape(Quantity quantity) {
+  return quantity == Quantity::length || quantity == Quantity::width || quantity == Quantity::heading;
+}
 
 class UsualColumns {
  public:
@@ -108,7 +111,8 @@ class UsualColumns {
 }  // namespace
 
 bool is_used(Quantity quantity, const ColumnHints& hints, ColumnUse use) {
-  if (is_size(quantity)) return hints.sizes;
+  if (is_of_shape(quantity)) return hints.sizes;
+  if (hints.sizes && quantity == Quantity::course) return true;
   return use == ColumnUse::reports || is_position(quantity);
 }
 

@@ -1,0 +1,87 @@
+// The kinds of recordings that are read as a whole, each with one reader.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/program_error.hpp"
+#include "formats/tables/row_table.hpp"
+#include "formats/tables/table_columns.hpp"
+
+namespace kinesphere::program {
+
+/// The whole text of a file, without a byte order mark.
+struct RecordingText {
+  std::string_view text;
+  const std::string& file;  ///< its name, for messages
+  bool geometric = false;   ///< heights of aircraft are those of satellite navigation
+};
+
+/// The entry of a kind in the catalogue.
+struct RecordingKind {
+  std::string_view name;  ///< what a file of it is, as "GPX"
+  /// True for the beginning of such a text, of some thousand bytes, and for the whole of it.
+  bool (*is_of_it)(std::string_view beginning);
+  /// Returns the rows. Throws ProgramError naming the file and, for a damaged one, the line.
+  RowTable (*read)(const RecordingText& recording);
+  bool is_json_records = false;  ///< a table in JSON, which --format table does not exclude
+};
+
+/// Returns the kind of a text with this beginning; null for other text. Sentences of NMEA 0183 are a log of a
+/// receiver only if none of AIS is among them. With --format table no kind counts but records in JSON.
+/// Objects in lines that are messages by their names are records only with --columns or --format json.
+const RecordingKind* recording_kind_of(std::string_view beginning, const ColumnHints& hints = {});
+
+// One file each.
+RowTable read_gpx(const RecordingText& recording);
+RowTable read_kml(const RecordingText& recording);
+RowTable read_fcd(const RecordingText& recording);
+RowTable read_xyz(const RecordingText& recording);
+RowTable read_lammps(const RecordingText& recording);
+RowTable read_gro(const RecordingText& recording);
+RowTable read_pdb(const RecordingText& recording);
+RowTable read_gps_log(const RecordingText& recording);
+RowTable read_igc(const RecordingText& recording);
+RowTable read_plt(const RecordingText& recording);
+RowTable read_deeplabcut(const RecordingText& recording);
+RowTable read_motion_capture(const RecordingText& recording);
+RowTable read_vissim(const RecordingText& recording);
+RowTable read_pneuma(const RecordingText& recording);
+RowTable read_oem(const RecordingText& recording);
+RowTable read_geojson(const RecordingText& recording);
+RowTable read_json_trace(const RecordingText& recording);
+RowTable read_json_list(const RecordingText& recording);
+RowTable read_json_lines(const RecordingText& recording);
+
+// What a text is by its beginning.
+bool is_igc(std::string_view text);
+bool is_gps_log(std::string_view text);
+bool is_deeplabcut(std::string_view text);
+bool is_gro(std::string_view text);
+bool is_pdb(std::string_view text);
+bool is_xyz(std::string_view text);
+bool is_vissim(std::string_view text);
+bool is_pneuma(std::string_view text);
+bool is_plt(std::string_view text);
+bool is_motion_capture(std::string_view text);
+bool is_json_trace(std::string_view text);
+bool is_geojson(std::string_view text);
+/// A list of objects.
+bool is_json_list(std::string_view text);
+/// An object in each line.
+bool are_json_lines(std::string_view text);
+/// Lists of values, one for each name, such as {"time":[0,1],"x":[2,3]}.
+bool is_columnar_json(std::string_view text);
+/// A document of CZML, for CesiumJS.
+bool is_czml(std::string_view text);
+/// Streams of an activity of Strava, which are such lists.
+bool is_strava(std::string_view text);
+
+/// Returns the name of the outermost element of XML, without a prefix; empty for other text, and where it
+/// comes later than this beginning.
+std::string_view root_element(std::string_view text);
+
+/// Returns the error for a file of a kind of XML in a program without expat.
+ProgramError without_expat(const std::string& file, std::string_view kind);
+
+}  // namespace kinesphere::program
