@@ -55,12 +55,12 @@ struct Projection {
   }
 };
 
-/// Returns how long the centres of two bounds that go straight on and grow stay within `reach`, less the growth;
-/// 0 where that is not to be seen so.
+/// Returns how long the centres of two bounds that go straight on and grow stay within `reach`, less the
+/// growth; 0 where that is not to be seen so.
 ///
-/// The distance of the centres and the growth are convex functions of time. So if their sum is below the reach
-/// now and at the end, it is throughout: a time is guessed by Newton's method, from a later one, and then tried.
-/// Two theorems: two_that_go_straight_stay_within, and separation_step_is_safe for all others.
+/// The distance of the centres and the growth are convex functions of time. So if their sum is below the
+/// reach now and at the end, it is throughout: a time is guessed by Newton's method, from a later one, and
+/// then tried. Two theorems: two_that_go_straight_stay_within, and separation_step_is_safe for all others.
 double stays_within(const RelativeMotion& motion, double reach, double distance) {
   const double limit = motion.acceleration_limit, rate = motion.growth_speed;
   if (motion.acceleration != Vec3{} || !(limit > 0.0) || !(rate >= 0.0)) return 0.0;
@@ -72,8 +72,8 @@ double stays_within(const RelativeMotion& motion, double reach, double distance)
   // Of what is left, a small part is to be above the margin in the end.
   constexpr double early = 0x1p-22;
   if (!(room > 0.0) || !is_within(0.0, rounding::margin / early)) return 0.0;
-  // When the squares of both sides are equal, but for the higher powers of time in that of what is left of the
-  // reach; or when the growth alone uses that up.
+  // When the squares of both sides are equal, but for the higher powers of time in that of what is left of
+  // the reach; or when the growth alone uses that up.
   const double gap = room * room - norm_squared(motion.offset);
   const double fall = room * rate + dot(motion.offset, motion.velocity);
   const double bend = rate * rate - room * limit - norm_squared(motion.velocity);
@@ -83,7 +83,8 @@ double stays_within(const RelativeMotion& motion, double reach, double distance)
   for (int step = 0; step < 3; ++step) {
     const Vec3 centre = motion.centre_at(d);
     const double length = norm(centre);
-    const double slope = motion.growth_speed_at(d) + (length > 0.0 ? dot(centre, motion.velocity) / length : 0.0);
+    const double slope =
+        motion.growth_speed_at(d) + (length > 0.0 ? dot(centre, motion.velocity) / length : 0.0);
     d -= (length + motion.growth_at(d) - reach) / slope;
   }
   d *= 1.0 - early;

@@ -106,8 +106,8 @@ void RegionCells::sort(Balls& balls) {
   refine(balls);
 }
 
-/// Returns the median reach of some regions, and the top of the first level that suits them: it has nearly all
-/// regions, but none that are much larger than most.
+/// Returns the median reach of some regions, and the top of the first level that suits them: it has nearly
+/// all regions, but none that are much larger than most.
 std::pair<float, float> RegionCells::typical_reaches() const {
   std::vector<float> reaches;
   for (const std::uint32_t slot : sample()) reaches.push_back(reach_of(slot));

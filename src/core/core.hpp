@@ -212,7 +212,8 @@ class Core {
   NeighbourLists lists_;
   RegionCells cells_;
   DueQueue queue_;
-  std::vector<std::uint64_t> changes_;  ///< by number: in which order balls have changed last; 0 for passive ones
+  std::vector<std::uint64_t>
+      changes_;  ///< by number: in which order balls have changed last; 0 for passive ones
   std::uint64_t last_change_ = 0;
   double first_radius_ = 0.0;   ///< of the first safe region of a ball that arrives alone (length)
   Saved saved_;                 ///< from a snapshot, until rebuild()

@@ -26,8 +26,8 @@ bool Core::can_hold(const Bound& bound, double time) const {
 
 bool Core::rebuild(double time) {
   balls_.set_time(time);
-  if (!balls_.has_valid_drifts() || saved_.reaches.size() != balls_.size() || changes_.size() != balls_.size() ||
-      saved_.lists.size() != balls_.size())
+  if (!balls_.has_valid_drifts() || saved_.reaches.size() != balls_.size() ||
+      changes_.size() != balls_.size() || saved_.lists.size() != balls_.size())
     return false;
   std::vector<std::vector<std::uint32_t>> sorted = saved_.lists;
   for (std::vector<std::uint32_t>& list : sorted) std::sort(list.begin(), list.end());
@@ -55,6 +55,7 @@ bool Core::is_valid(std::uint32_t number, std::span<const std::vector<std::uint3
   if (ball.is_present() && !can_hold(balls_.bound(number), balls_.time())) return false;
   const std::vector<std::uint32_t>& neighbours = lists[number];
   if (!ball.is_present()) return neighbours.empty();
+  if (changes_[number] > last_change_ || (ball.is(Ball::passive) && changes_[number] != 0)) return false;
   const float reach = saved_.reaches[number];
   if (ball.is(Ball::arriving)) return reach == 0.0F && neighbours.empty() && ball.about == none;
   if (!(reach > 0.0F && reach < 0x1p62F)) return false;

@@ -153,8 +153,8 @@ void Core::place_region(std::uint32_t number, double radius) {
     if (dot(inside.normal, middle) - inside.offset < extent) ball.walls |= wall_bit(wall);
 }
 
-/// Gives the ball another safe region, which has no part in the lists of neighbours yet. Those of many balls are
-/// put into cells together, later.
+/// Gives the ball another safe region, which has no part in the lists of neighbours yet. Those of many balls
+/// are put into cells together, later.
 void Core::enter_region(std::uint32_t number, double radius, bool is_of_many, Host& host) {
   place_region(number, radius);
   const Ball& ball = balls_[number];

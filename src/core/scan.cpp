@@ -9,8 +9,8 @@
 
 namespace kinesphere::core {
 
-/// Computes when a ball is due: at its own time, or when something may happen between it and a neighbour that it
-/// looks out for, if that is earlier.
+/// Computes when a ball is due: at its own time, or when something may happen between it and a neighbour that
+/// it looks out for, if that is earlier.
 void Core::schedule(std::uint32_t number, Host& host) {
   Ball& ball = balls_[number];
   if (ball.is(Ball::passive)) return;
@@ -22,8 +22,8 @@ void Core::schedule(std::uint32_t number, Host& host) {
   Counters& work = host.work_counters();
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     std::array<std::uint32_t, most_lanes> room;
-    const auto some = looked_out_for(
-        number, neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes)), room);
+    const auto some =
+        looked_out_for(number, neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes)), room);
     std::array<double, most_lanes> apart;
     for (std::uint32_t left = candidates(number, some, ball.second - balls_.time(), apart); left != 0;
          left &= left - 1) {
@@ -43,12 +43,13 @@ void Core::schedule(std::uint32_t number, Host& host) {
   }
   if (ball.is(Ball::linked))
     for (const std::uint32_t other : host.linked_with(number))
-      if (changes_[other] <= changes_[number]) consider(ball, other, std::min(host.unchanged_until(number, other), balls_[other].own));
+      if (changes_[other] <= changes_[number])
+        consider(ball, other, std::min(host.unchanged_until(number, other), balls_[other].own));
   queue_.push(balls_.all(), number);
 }
 
-/// Returns those of some neighbours that a ball looks out for, as they have not changed since it did. The others
-/// look out for it. There has to be room for all of them.
+/// Returns those of some neighbours that a ball looks out for, as they have not changed since it did. The
+/// others look out for it. There has to be room for all of them.
 std::span<const std::uint32_t> Core::looked_out_for(std::uint32_t number,
                                                     std::span<const std::uint32_t> neighbours,
                                                     std::span<std::uint32_t> room) const {
