@@ -8,11 +8,6 @@
 namespace kinesphere {
 namespace {
 
-/// A length about which coordinates, at most 2^41 tolerances, are ordinary numbers in single precision.
-double unit_of(const MonitorDefinition& definition) {
-  return power_of_two(exponent_of(definition.tolerance) + 20);
-}
-
 std::vector<TrackClass> classes_of(const MonitorDefinition& definition) {
   std::vector<TrackClass> classes = definition.classes;
   if (definition.dimensions == 2)
@@ -54,8 +49,8 @@ Monitor::Engine::Engine(const MonitorDefinition& definition)
       rung_(exponent_of(definition.window)),
       time_(0.0),
       has_started_(false),
-      near_(unit_of(definition), definition.dimensions),
-      predictions_(definition_, separations_, unit_of(definition)) {
+      near_(definition.tolerance, definition.dimensions),
+      predictions_(definition_, separations_) {
   if (definition.start_time) start_clock(*definition.start_time);
 }
 

@@ -26,8 +26,9 @@ namespace kinesphere {
 
 /// Two invariants hold whenever time advances:
 ///   H  A track is in its regions, with the space around it in which others matter, until KnownTrack::own.
-///   P  Two watched tracks whose regions touch are near each other, and have a PairRecord. Its verdicts hold
-///      until PairRecord::due or, those that are undecided, until one of the two reports.
+///   P  Two tracks whose regions touch are near each other. If they are watched, they are apart until the own
+///      time of one of them, or they have a PairRecord. Its verdicts hold until PairRecord::due or, those
+///      that are undecided, until one of the two reports.
 /// So all others are apart. Both are about the true tracks, which obey all correct reports: a report that
 /// contradicts none of the earlier ones breaks neither.
 class Monitor::Engine {
@@ -92,8 +93,7 @@ class Monitor::Engine {
   void move_regions(std::uint32_t number);
   void set_own(std::uint32_t number, double time);
   Bound zone_of(std::uint32_t number, const Hypothesis& hypothesis, double end) const;
-  double stays(std::uint32_t number, double end) const;
-  double zones_apart_until(std::uint32_t a, std::uint32_t b) const;
+  double stays(std::uint32_t number, double end);
 
   // pairs.cpp: verdicts.
   /// Returns the separation levels of a pair; empty if the pair is not watched.

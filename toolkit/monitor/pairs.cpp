@@ -19,9 +19,7 @@ std::optional<double> Monitor::Engine::apart_until(std::uint32_t a, std::uint32_
 
 /// Sets the time until which a pair that is not open is apart; now if it may not be so.
 void Monitor::Engine::certify(std::uint32_t a, std::uint32_t b, PairRecord& pair) {
-  double until = zones_apart_until(a, b);
-  if (!(until >= time_ + resolution())) until = apart_until(a, b).value_or(time_);
-  set_due(a, b, pair, until);
+  set_due(a, b, pair, apart_until(a, b).value_or(time_));
 }
 
 void Monitor::Engine::set_due(std::uint32_t a, std::uint32_t b, PairRecord& pair, double time) {

@@ -54,9 +54,11 @@ struct PairPrediction {
 /// are near. Of these, pairs that meet if both go straight on, or that are predicted, have a PairPrediction.
 class Predictions {
  public:
-  /// The first two arguments must outlive this object. `unit`: as of NearTracks.
-  Predictions(const MonitorDefinition& definition, const SeparationTable& separations, double unit)
-      : definition_(&definition), separations_(&separations), homes_(unit, definition.dimensions) {}
+  /// The arguments must outlive this object.
+  Predictions(const MonitorDefinition& definition, const SeparationTable& separations)
+      : definition_(&definition),
+        separations_(&separations),
+        homes_(definition.tolerance, definition.dimensions) {}
 
   /// Sets the straight path of a track, new or known, with the position error of its report, and adds the
   /// events of predictions that change. Cost: O(near tracks); where the path leaves the track's home, a

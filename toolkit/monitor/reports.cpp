@@ -141,9 +141,10 @@ void Monitor::Engine::note_learned(std::uint32_t number, const TrackEstimate::Le
   if (learned.ends_certainty || learned.outcome == TrackEstimate::Outcome::resolves) move_regions(number);
   if (!learned.ends_certainty) return;
   for (const std::uint32_t other : near_.near(number)) {
-    PairRecord& pair = *pairs_.find(number, other);
-    for (LevelState& state : pair.levels) state.until = -infinity;
-    if (!pair.is_open()) set_due(number, other, pair, time_);
+    PairRecord* pair = pairs_.find(number, other);
+    if (pair == nullptr) continue;
+    for (LevelState& state : pair->levels) state.until = -infinity;
+    if (!pair->is_open()) set_due(number, other, *pair, time_);
   }
   decide_open_pairs(number);
 }

@@ -80,17 +80,13 @@ Result<std::unique_ptr<Monitor::Engine>> Monitor::Engine::restore(std::span<cons
   return engine;
 }
 
-/// Finds out what was not read: who is near whom, and the number of open pairs. Returns false if a pair that
-/// is near has no record.
+/// Finds out what was not read: who is near whom, and the number of open pairs. Returns false if the regions
+/// that were read are impossible.
 bool Monitor::Engine::rebuild() {
   const auto regions_of = [this](std::uint32_t number) {
     return tracks_[number].estimate.hypotheses().size();
   };
-  const auto matters = [this](std::uint32_t a, std::uint32_t b) { return !levels_of(a, b).empty(); };
-  if (!near_.rebuild(tracks_.numbers(), regions_of, matters)) return false;
-  for (std::uint32_t number = 0; number < tracks_.numbers(); ++number)
-    for (const std::uint32_t other : near_.near(number))
-      if (pairs_.find(number, other) == nullptr) return false;
+  if (!near_.rebuild(tracks_.numbers(), regions_of, {})) return false;
   // The regions of open pairs may have parted.
   pairs_.for_each([this](std::uint32_t a, std::uint32_t b, const PairRecord& pair) {
     if (!near_.are_near(a, b)) near_.join(a, b);
