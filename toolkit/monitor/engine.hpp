@@ -111,7 +111,7 @@ class Monitor::Engine {
   void decide_open_pairs(std::uint32_t number);
   void decide_pairs_not_due(std::uint32_t number);
   void open(std::uint32_t a, std::uint32_t b, PairRecord& pair);
-  void close(std::uint32_t a, std::uint32_t b, PairRecord& pair);
+  void close(std::uint32_t a, std::uint32_t b, PairRecord& pair, double until);
   void set_due(std::uint32_t a, std::uint32_t b, PairRecord& pair, double time);
 
   // asking.cpp: pairs that are due, and requests for reports.

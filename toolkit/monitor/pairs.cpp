@@ -60,7 +60,7 @@ void Monitor::Engine::decide(std::uint32_t a, std::uint32_t b) {
     decide_level(a, b, level, pair.levels[level]);
     until = std::min(until, pair.levels[level].until);
   }
-  if (pair.is_apart()) close(a, b, pair);
+  if (pair.is_apart()) return close(a, b, pair, until);
   set_due(a, b, pair, until);
 }
 
@@ -72,12 +72,14 @@ void Monitor::Engine::open(std::uint32_t a, std::uint32_t b, PairRecord& pair) {
   ++open_pairs_;
 }
 
-/// A pair is apart at all levels again.
-void Monitor::Engine::close(std::uint32_t a, std::uint32_t b, PairRecord& pair) {
+/// A pair is apart at all levels again until `until`.
+void Monitor::Engine::close(std::uint32_t a, std::uint32_t b, PairRecord& pair, double until) {
   pair.levels = {};
   std::erase(tracks_[a].open, b);
   std::erase(tracks_[b].open, a);
   --open_pairs_;
+  if (!near_.are_near(a, b)) return pairs_.remove(a, b);
+  set_due(a, b, pair, until);
 }
 
 void Monitor::Engine::decide_level(std::uint32_t a, std::uint32_t b, std::uint32_t level, LevelState& state) {

@@ -14,13 +14,10 @@ constexpr double stay_worth_keeping = 0.25;
 /// A track near which few others have come by its last region gets the next one for twice the time, unless
 /// there are many around already; after many, for half of it. Wide regions last long, but bring more pairs
 /// near each other. Measured with the streams of docs/monitoring.md.
-constexpr std::size_t few_fresh = 2, many_fresh = 8, many_around = 24;
+constexpr std::size_t few_fresh = 1, many_fresh = 6, many_around = 16;
 /// A silent track gets a region for at least this part of the time since its last report, so that a gap
 /// takes a number of regions like the logarithm of its length.
 constexpr double part_of_silence = 0.125;
-/// The time for which zones are apart is believed if it is this part of that for which both tracks stay in
-/// their regions; otherwise a forecast, which costs much more, gives a later one.
-constexpr double time_worth_a_recheck = 0.25;
 /// No region is made for a longer time: twice the longest one that there is.
 constexpr double longest_stay = 4.0 * limits::largest_time;
 
@@ -70,23 +67,20 @@ double Monitor::Engine::stays(std::uint32_t number, double end) {
 void Monitor::Engine::set_own(std::uint32_t number, double time) {
   tracks_[number].own = time;
   add_due({time, DueTime::About::region, number});
-  for (const auto& [other, apart] : near_.meetings(number, time_, time - time_)) {
+  for (const auto& [other, apart] : near_.meetings(number, time_, time - time_ + resolution())) {
     const double both_stay = std::min(time, tracks_[other].own) - time_;
-    if (apart >= both_stay || levels_of(number, other).empty() || pairs_.find(number, other) != nullptr)
+    if (apart >= both_stay + resolution() || levels_of(number, other).empty() ||
+        pairs_.find(number, other) != nullptr)
       continue;
-    PairRecord& pair = pairs_.add(number, other);
-    if (apart >= time_worth_a_recheck * both_stay) {
-      set_due(number, other, pair, rounding::sum_down(time_, apart));
-    } else {
-      certify(number, other, pair);
-    }
+    certify(number, other, pairs_.add(number, other));
   }
 }
 
 /// A track may leave its regions: it gets others, unless it stays for long by what is known of it now.
 void Monitor::Engine::leave_regions(std::uint32_t number) {
   const double stay = tracks_[number].stay;
-  const double until = stays(number, time_ + stay);
+  const double end = time_ + stay, until = stays(number, end);
+  if (until >= end) tracks_[number].stay *= 2.0;
   if (until >= time_ + stay_worth_keeping * stay) return set_own(number, until);
   move_regions(number);
 }
@@ -108,10 +102,10 @@ void Monitor::Engine::move_regions(std::uint32_t number) {
   counters_.searches += regions_.size();
   const std::size_t around = near_.place(number, regions_, {});
   for (const std::uint32_t other : near_.gone()) {
+    near_.part(number, other);
     const PairRecord* pair = pairs_.find(number, other);
     if (pair != nullptr && pair->is_open()) continue;
     pairs_.remove(number, other);
-    near_.part(number, other);
   }
   const std::vector<std::uint32_t>& fresh = near_.fresh();
   counters_.near_pairs += fresh.size();

@@ -140,12 +140,11 @@ void Monitor::Engine::note_learned(std::uint32_t number, const TrackEstimate::Le
   // Each hypothesis has its own region.
   if (learned.ends_certainty || learned.outcome == TrackEstimate::Outcome::resolves) move_regions(number);
   if (!learned.ends_certainty) return;
-  for (const std::uint32_t other : near_.near(number)) {
-    PairRecord* pair = pairs_.find(number, other);
-    if (pair == nullptr) continue;
-    for (LevelState& state : pair->levels) state.until = -infinity;
-    if (!pair->is_open()) set_due(number, other, *pair, time_);
-  }
+  for (const std::uint32_t other : near_.near(number))
+    if (PairRecord* pair = pairs_.find(number, other); pair != nullptr && !pair->is_open())
+      set_due(number, other, *pair, time_);
+  for (const std::uint32_t other : track.open)
+    for (LevelState& state : pairs_.find(number, other)->levels) state.until = -infinity;
   decide_open_pairs(number);
 }
 
@@ -168,7 +167,10 @@ void Monitor::Engine::drop(std::uint32_t number, MonitorEventKind kind) {
            event.kind != MonitorEventKind::dropped;
   });
   for (const std::uint32_t other : near_.near(number)) pairs_.remove(number, other);
-  for (const std::uint32_t other : track.open) std::erase(tracks_[other].open, number);
+  for (const std::uint32_t other : track.open) {
+    pairs_.remove(number, other);
+    std::erase(tracks_[other].open, number);
+  }
   open_pairs_ -= track.open.size();
   near_.remove(number);
   queue({.time = time_, .kind = kind, .first = track.id});

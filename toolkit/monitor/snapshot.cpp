@@ -23,8 +23,8 @@ constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
 /// Returns true for an unused track number: its entry is as TrackTable::remove() leaves it.
 bool is_blank(const KnownTrack& track) {
   const auto& [id, track_class, present, stale, stay, own, silent_at, estimate, open] = track;
-  return id == 0 && track_class == 0 && !present && !stale && stay == 0.0 && own == -infinity &&
-         silent_at == infinity && estimate.hypotheses().empty() && open.empty();
+  return id == 0 && track_class == 0 && !present && !stale && stay == 0.0 && own == 0.0 && silent_at == 0.0 &&
+         estimate.hypotheses().empty() && open.empty();
 }
 
 }  // namespace
@@ -87,12 +87,12 @@ bool Monitor::Engine::rebuild() {
     return tracks_[number].estimate.hypotheses().size();
   };
   if (!near_.rebuild(tracks_.numbers(), regions_of, {})) return false;
-  // The regions of open pairs may have parted.
-  pairs_.for_each([this](std::uint32_t a, std::uint32_t b, const PairRecord& pair) {
-    if (!near_.are_near(a, b)) near_.join(a, b);
-    if (pair.is_open()) ++open_pairs_;
+  bool valid = true;
+  pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& pair) {
+    valid = valid && (pair.is_open() || near_.are_near(a, b));
+    open_pairs_ += pair.is_open() ? 1 : 0;
   });
-  return true;
+  return valid;
 }
 
 bool Monitor::Engine::is_valid_pair(std::uint32_t a, std::uint32_t b, const PairRecord& pair) const {

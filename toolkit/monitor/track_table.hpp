@@ -9,7 +9,6 @@
 #include "kinesphere/monitor/monitor_event.hpp"
 #include "monitor/track_estimate.hpp"
 #include "number/id_index.hpp"
-#include "number/infinity.hpp"
 
 namespace kinesphere {
 
@@ -18,10 +17,10 @@ struct KnownTrack {
   std::size_t track_class = 0;
   bool present = false;
   bool stale = false;
-  double stay = 0.0;       ///< for how long its next regions are to contain it (time, > 0)
-  double own = -infinity;  ///< it is in its regions until this time
+  double stay = 0.0;  ///< for how long its next regions are to contain it (time, > 0)
+  double own = 0.0;   ///< it is in its regions until this time
   /// When it becomes stale or, if it is stale, is dropped.
-  double silent_at = infinity;
+  double silent_at = 0.0;
   TrackEstimate estimate{};
   std::vector<std::uint32_t> open;  ///< Numbers of the tracks with which this one has an open pair.
 };
