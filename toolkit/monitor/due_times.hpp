@@ -43,9 +43,9 @@ class DueTimes {
   }
   void add(const DueTime& due) { queue_.push(due); }
   void clear() { queue_ = {}; }
-  /// True if most due times are stale when `live` ones count: then they are to be added anew. Times that are
-  /// changed again and again before they come would fill the queue.
-  bool is_mostly_stale(std::size_t live) const { return size() > 64 + 2 * live; }
+  /// True if a third of the due times are stale when `live` ones count: then they are to be added anew. Times
+  /// that are changed again and again before they come would fill the queue.
+  bool are_stale(std::size_t live) const { return size() > 64 + live + live / 2; }
 
  private:
   std::priority_queue<DueTime, std::vector<DueTime>, std::greater<>> queue_;

@@ -117,7 +117,7 @@ bool Monitor::Engine::is_due(const DueTime& due) const {
 /// Adds a time to the queue, if it ever comes. Precondition: the track or the pair has this time.
 void Monitor::Engine::add_due(const DueTime& due) {
   if (!(due.time < infinity)) return;
-  if (due_.is_mostly_stale(2 * tracks_.size() + pairs_.size())) return index_due();
+  if (due_.are_stale(2 * tracks_.size() + pairs_.size())) return index_due();
   due_.add(due);
 }
 

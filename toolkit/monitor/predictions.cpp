@@ -281,7 +281,7 @@ bool Predictions::is_valid(const Track& track, double now) const {
 
 /// Adds a time to the queue. Precondition: the track or the pair has this time.
 void Predictions::add_due(const DueTime& due) {
-  if (due_.is_mostly_stale(tracks_.size() + pairs_.size())) return index_due();
+  if (due_.are_stale(tracks_.size() + pairs_.size())) return index_due();
   due_.add(due);
 }
 
