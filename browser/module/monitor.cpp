@@ -231,7 +231,7 @@ KINESPHERE_EXPORT(monitor_counters) void monitor_counters(const Monitor* monitor
   answer().clear();
   for (const std::uint64_t count :
        {counters.reports, counters.late, counters.repeated, counters.contradictions, counters.polls,
-        counters.windows, counters.searches, counters.near_pairs, counters.rechecks})
+        counters.searches, counters.near_pairs, counters.rechecks})
     answer().push_back(static_cast<double>(count));
 }
 

@@ -204,11 +204,10 @@ void bind_views_of_monitor(py::module_& module) {
 
   py::class_<MonitorCounters> counters(module, "MonitorCounters", "What a monitor has done so far; a copy.");
   const std::pair<const char*, std::uint64_t MonitorCounters::*> members[] = {
-      {"reports", &MonitorCounters::reports},   {"late", &MonitorCounters::late},
-      {"repeated", &MonitorCounters::repeated}, {"contradictions", &MonitorCounters::contradictions},
-      {"polls", &MonitorCounters::polls},       {"windows", &MonitorCounters::windows},
-      {"searches", &MonitorCounters::searches}, {"near_pairs", &MonitorCounters::near_pairs},
-      {"rechecks", &MonitorCounters::rechecks},
+      {"reports", &MonitorCounters::reports},       {"late", &MonitorCounters::late},
+      {"repeated", &MonitorCounters::repeated},     {"contradictions", &MonitorCounters::contradictions},
+      {"polls", &MonitorCounters::polls},           {"searches", &MonitorCounters::searches},
+      {"near_pairs", &MonitorCounters::near_pairs}, {"rechecks", &MonitorCounters::rechecks},
   };
   for (const auto& [name, member] : members) counters.def_readonly(name, member);
   counters.def(

@@ -359,7 +359,7 @@ class Sky {
           reports[k] = report;
         }
     };
-    // Each start of windows requests reports for undecided pairs, so short windows would request too many.
+    // Reports of undecided pairs are requested once in each window, so short windows would request too many.
     const bool asks = choices_.one_in(4) && definition_.window > 0.01 * unit_;
     for (int left = 100'000;; --left) {
       if (left == 0) return fail("advance does not end");
@@ -369,7 +369,7 @@ class Sky {
       hear(**event);
     }
     const MonitorCounters& counters = monitor_->counters();
-    if (counters.windows > 200'000 || counters.rechecks > 20'000'000) fail("too many steps");
+    if (counters.searches > 200'000 || counters.rechecks > 20'000'000) fail("too many steps");
   }
 
   /// Returns true if two tracks are within the separation, enlarged by `more`. `way` and `speed` are the

@@ -10,15 +10,11 @@
 
 namespace kinesphere {
 
-/// Returns the time until which a pair without a PairRecord is certified to be apart, or nothing if no
-/// earlier certificate holds now. Reports that say less do not end a certificate. Cost: O(near pairs).
+/// Returns the time until which a pair that is not open is certified to be apart, or nothing if no earlier
+/// certificate holds now. Reports that say less do not end a certificate. Cost: O(1).
 std::optional<double> Monitor::Engine::certified_until(std::uint32_t a, std::uint32_t b) const {
-  double until = broad_phase_.next_end();
-  const std::uint32_t first = std::min(a, b), second = std::max(a, b);
-  queue_.for_each([&](const PairCertificate& pair) {
-    if (pair.first == first && pair.second == second && !is_stale(pair))
-      until = std::min(until, pair.failure_time);
-  });
+  const PairRecord* pair = pairs_.find(a, b);
+  const double until = pair != nullptr ? pair->due : std::min(tracks_[a].own, tracks_[b].own);
   return until > time_ ? std::optional(until) : std::nullopt;
 }
 
@@ -47,14 +43,14 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   const KnownTrack& one = tracks_[a];
   const KnownTrack& other = tracks_[b];
   PairAnswer answer;
-  const SeparationForecast now = forecast(a, b, levels[level], infinity);
-  const PairRecord* record = pair_records_.find(a, b);
-  const LevelState state = record != nullptr ? record->levels[level] : LevelState{};
-  answer.verdict = record != nullptr ? state.verdict : now.verdict;
+  const SeparationForecast now = forecast(a, b, levels[level]);
+  const PairRecord* pair = pairs_.find(a, b);
+  const bool is_open = pair != nullptr && pair->is_open();
+  const LevelState state = is_open ? pair->levels[level] : LevelState{};
+  answer.verdict = is_open ? state.verdict : now.verdict;
   answer.since = state.since;
-  answer.until =
-      record == nullptr || now.verdict == state.verdict ? std::max(now.until, state.until) : state.until;
-  if (record == nullptr && now.verdict != Verdict::apart)
+  answer.until = !is_open || now.verdict == state.verdict ? std::max(now.until, state.until) : state.until;
+  if (!is_open && now.verdict != Verdict::apart)
     if (const auto until = certified_until(a, b)) {
       answer.verdict = Verdict::apart;
       answer.until = *until;
@@ -100,7 +96,7 @@ ErrorBound Monitor::Engine::acceleration_limit(const KnownTrack& track) const {
 
 std::vector<OpenPair> Monitor::Engine::open_pairs() const {
   std::vector<OpenPair> pairs;
-  pair_records_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& record) {
+  pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& record) {
     const auto [first, second] = std::minmax(tracks_[a].id, tracks_[b].id);
     for (std::uint32_t level = 0; level < record.levels.size(); ++level)
       if (const LevelState& state = record.levels[level]; state.verdict != Verdict::apart)
@@ -123,7 +119,7 @@ std::vector<TrackId> Monitor::Engine::crowd(std::size_t pairs) const {
   });
   std::vector<TrackId> crowd;
   std::vector<bool> is_chosen(tracks_.numbers(), false);
-  for (std::size_t left = pair_records_.size(), k = 0; left > pairs; ++k) {
+  for (std::size_t left = open_pairs_, k = 0; left > pairs; ++k) {
     const KnownTrack& track = tracks_[numbers[k]];
     const auto closed = std::count_if(track.open.begin(), track.open.end(),
                                       [&](std::uint32_t other) { return !is_chosen[other]; });
@@ -137,16 +133,11 @@ std::vector<TrackId> Monitor::Engine::crowd(std::size_t pairs) const {
 
 std::vector<ReportRequest> Monitor::Engine::needed(double until) const {
   std::vector<ReportRequest> needs;
-  queue_.for_each([&](const PairCertificate& pair) {
-    if (!pair.has_second() || pair.failure_time > until || is_stale(pair)) return;
-    const auto [asked, other] = is_less_certain(pair.first, pair.second) ? std::pair(pair.first, pair.second)
-                                                                         : std::pair(pair.second, pair.first);
-    needs.push_back({tracks_[asked].id, std::max(time_, pair.failure_time), tracks_[other].id});
-  });
-  pair_records_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& record) {
-    if (!record.is_undecided()) return;
+  pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& pair) {
+    const double by = pair.is_undecided() ? time_ : std::max(time_, pair.due);
+    if (by > until && !pair.is_undecided()) return;
     const auto [asked, other] = is_less_certain(a, b) ? std::pair(a, b) : std::pair(b, a);
-    needs.push_back({tracks_[asked].id, time_, tracks_[other].id});
+    needs.push_back({tracks_[asked].id, by, tracks_[other].id});
   });
   std::sort(needs.begin(), needs.end(), [](const ReportRequest& p, const ReportRequest& q) {
     return std::tie(p.by, p.track, p.other) < std::tie(q.by, q.track, q.other);

@@ -1,4 +1,4 @@
-// Clock of a monitor: starts of windows, and the event loop over certificates.
+// Clock of a monitor: the loop over what is due.
 #include "monitor/engine.hpp"
 
 #include <tuple>
@@ -7,13 +7,6 @@
 
 namespace kinesphere {
 namespace {
-
-/// Number of windows of one length, before it doubles.
-constexpr std::uint32_t windows_of_a_length = 8;
-
-Space space_of(const MonitorDefinition& definition) {
-  return Space(WorldDefinition{.dimensions = definition.dimensions});
-}
 
 std::vector<TrackClass> classes_of(const MonitorDefinition& definition) {
   std::vector<TrackClass> classes = definition.classes;
@@ -54,20 +47,17 @@ Monitor::Engine::Engine(const MonitorDefinition& definition)
       classes_(classes_of(definition)),
       separations_(definition),
       rung_(exponent_of(definition.window)),
-      time_(definition.start_time.value_or(0.0)),
-      has_started_(definition.start_time.has_value()),
-      predictions_(definition_, separations_),
-      broad_phase_(space_of(definition)) {}
+      time_(0.0),
+      has_started_(false),
+      near_(definition.tolerance, definition.dimensions),
+      predictions_(definition_, separations_) {
+  if (definition.start_time) start_clock(*definition.start_time);
+}
 
-bool Monitor::Engine::is_stale(const PairCertificate& pair) const {
-  const KnownTrack& first = tracks_[pair.first];
-  if (!pair.has_second()) return first.life != pair.first_revision || first.expected != pair.second_revision;
-  if (pair.second_revision == of_open_record) {
-    const PairRecord* record = pair_records_.find(pair.first, pair.second);
-    return record == nullptr || record->revision != pair.first_revision;
-  }
-  return first.life != pair.first_revision || tracks_[pair.second].life != pair.second_revision ||
-         pair_records_.find(pair.first, pair.second) != nullptr;
+void Monitor::Engine::start_clock(double time) {
+  time_ = time;
+  has_started_ = true;
+  round_ = next_round();
 }
 
 Result<std::optional<MonitorEvent>> Monitor::Engine::advance(double until, const Poll* poll) {
@@ -76,20 +66,14 @@ Result<std::optional<MonitorEvent>> Monitor::Engine::advance(double until, const
     if (until == time_) return std::optional<MonitorEvent>{};
     start_clock(until);
   }
+  // Rounds have been left out where there was no poll.
+  if (poll != nullptr && round_ < time_) round_ = next_round();
   for (;;) {
-    queue_.open([this](const PairCertificate& pair) { return is_stale(pair); });
-    const double next = std::min({broad_phase_.next_end(), queue_.next_time(), predictions_.next_time()});
+    const double round = poll != nullptr ? round_ : infinity;
+    const double next = std::min({round, due_.next_time(), predictions_.next_time()});
     if (events_.empty() ? next > until : next > time_) break;
     time_ = std::max(time_, next);
-    if (broad_phase_.next_end() <= time_) {
-      if (const Result<void> done = start_windows(poll); !done) return done.error();
-    } else if (queue_.next_time() <= time_) {
-      if (const Result<void> done = recheck(poll); !done) return done.error();
-    } else {
-      std::vector<MonitorEvent> events;
-      predictions_.advance(time_, events);
-      queue_all(events);
-    }
+    if (const Result<void> done = handle_next(poll); !done) return done.error();
   }
   if (events_.empty()) {
     time_ = std::max(time_, until);
@@ -98,6 +82,60 @@ Result<std::optional<MonitorEvent>> Monitor::Engine::advance(double until, const
   const MonitorEvent event = events_.front();
   events_.pop_front();
   return std::optional(event);
+}
+
+/// Handles one thing that is due now. Precondition: there is one.
+Result<void> Monitor::Engine::handle_next(const Poll* poll) {
+  if (poll != nullptr && round_ <= time_) return ask_round(*poll);
+  if (due_.next_time() > time_) {
+    std::vector<MonitorEvent> events;
+    predictions_.advance(time_, events);
+    queue_all(events);
+    return {};
+  }
+  const DueTime due = due_.take_first();
+  if (!is_due(due)) return {};
+  if (due.about == DueTime::About::pair) return recheck(due, poll);
+  if (due.about == DueTime::About::silence) {
+    look_at_silence(due.first);
+  } else {
+    leave_regions(due.first);
+  }
+  return {};
+}
+
+/// Returns false if this time is stale.
+bool Monitor::Engine::is_due(const DueTime& due) const {
+  if (due.about == DueTime::About::pair) {
+    const PairRecord* pair = pairs_.find(due.first, due.second);
+    return pair != nullptr && pair->due == due.time;
+  }
+  const KnownTrack& track = tracks_[due.first];
+  return track.present && (due.about == DueTime::About::region ? track.own : track.silent_at) == due.time;
+}
+
+/// Adds a time to the queue, if it ever comes. Precondition: the track or the pair has this time.
+void Monitor::Engine::add_due(const DueTime& due) {
+  if (!(due.time < infinity)) return;
+  if (due_.are_stale(2 * tracks_.size() + pairs_.size())) return index_due();
+  due_.add(due);
+}
+
+/// Makes the queue anew from the times of all tracks and pairs.
+void Monitor::Engine::index_due() {
+  using About = DueTime::About;
+  due_.clear();
+  const auto add = [this](const DueTime& due) {
+    if (due.time < infinity) due_.add(due);
+  };
+  for (std::uint32_t number = 0; number < tracks_.numbers(); ++number) {
+    if (!tracks_[number].present) continue;
+    add({tracks_[number].own, About::region, number});
+    add({tracks_[number].silent_at, About::silence, number});
+  }
+  pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& pair) {
+    add({pair.due, About::pair, a, b});
+  });
 }
 
 void Monitor::Engine::queue(MonitorEvent event) {
@@ -111,108 +149,4 @@ void Monitor::Engine::queue_all(const std::vector<MonitorEvent>& events) {
   for (const MonitorEvent& event : events) queue(event);
 }
 
-/// Returns the bound of a hypothesis for the broad phase, with the margin of its class and, for well clear,
-/// the way that it may go in the modified tau. A planned
-/// acceleration is replaced by a straight path: for d in [0, T],  1/2 g d^2  is within  |g| T^2 / 16  of  1/2
-/// g (T d - T^2 / 8). This is tighter than the first tangent.
-InflatedBound Monitor::Engine::inflated_bound(std::uint32_t number, const Hypothesis& hypothesis,
-                                              double end) const {
-  BoundAt moved(TrackEstimate::bound(hypothesis, time_, end), time_);
-  if (const double duration = end - time_; moved.acceleration != Vec3{} && duration < infinity) {
-    const double sixteenth = duration * duration * 0.0625;
-    moved.centre -= moved.acceleration * sixteenth;
-    moved.velocity += moved.acceleration * (0.5 * duration);
-    moved.radius += norm(moved.acceleration) * (sixteenth * (1.0 + 0x1p-47));
-    moved.acceleration = {};
-  }
-  const std::size_t track_class = tracks_[number].track_class;
-  const double modified_tau = separations_.modified_tau(track_class);
-  double margin = separations_.margin(track_class);
-  if (modified_tau > 0.0)
-    margin += modified_tau * TrackEstimate::largest_speed(hypothesis, time_, end) * (1.0 + 0x1p-40);
-  return {moved, margin};
-}
-
-/// Returns the window that starts now. Its length doubles with every 8 windows that start without a report,
-/// so a gap takes 8 times the binary logarithm of its length in windows. The length doubles more slowly while
-/// windows find many pairs.
-Window Monitor::Engine::next_window() const {
-  return Window::at(time_, rung_ + static_cast<int>(quiet_windows_ / windows_of_a_length));
-}
-
-/// Lets windows become up to 8 times as long while fewer reports come than a sixteenth of the tracks: then
-/// the cost is that of silent tracks, each of which starts with each window.
-void Monitor::Engine::weigh_reports(std::size_t tracks) {
-  constexpr std::uint64_t tracks_for_each = 16;
-  constexpr std::uint32_t most = 3 * windows_of_a_length;
-  const std::uint64_t reports = counters_.reports - reports_before_window_;
-  reports_before_window_ = counters_.reports;
-  if (reports == 0) return;
-  if (reports * tracks_for_each < tracks)
-    sparse_windows_ = std::min(sparse_windows_ + 1, most);
-  else
-    sparse_windows_ -= std::min(sparse_windows_, windows_of_a_length);
-}
-
-Result<void> Monitor::Engine::start_windows(const Poll* poll) {
-  const Window next = next_window();
-  const std::uint64_t pairs_before = counters_.near_pairs;
-  // All tracks start together, including one that was added to a running window after a poll failed here; the
-  // started tracks take a grid level of their own. Tracks are in ascending order, since the slots of a track
-  // are contiguous.
-  std::vector<std::uint32_t> numbers;
-  for (const std::uint32_t place : broad_phase_.ended(time_, true))
-    if (numbers.empty() || numbers.back() != track_at(place)) numbers.push_back(track_at(place));
-  if (poll != nullptr) {
-    // Poll tracks with a plan that ends in the next window, and tracks of undecided pairs.
-    std::vector<std::uint32_t> asked;
-    for (const std::uint32_t number : numbers) {
-      const KnownTrack& track = tracks_[number];
-      if (track.estimate.timestamp() < time_ &&
-          (track.estimate.first_end() < next.end ||
-           std::any_of(track.open.begin(), track.open.end(), [&](std::uint32_t other) {
-             return pair_records_.find(number, other)->is_undecided();
-           })))
-        asked.push_back(number);
-    }
-    if (!asked.empty()) {
-      quiet_windows_ = 0;
-      if (Result<void> done = ask(asked, *poll, Placing::later); !done) return done;
-      for (const std::uint32_t number : asked) decide_pairs_not_due(number);
-    }
-  }
-  close_records();
-  weigh_reports(numbers.size());
-  window_ = next;
-  ++counters_.windows;
-  broad_phase_.end_windows(time_, true);
-  std::vector<BroadPhase::Starter> starters;
-  bounds_.resize(std::size_t{tracks_.numbers()} * TrackEstimate::slots);
-  for (const std::uint32_t number : numbers) {
-    KnownTrack& track = tracks_[number];
-    for (const Hypothesis& hypothesis : track.estimate.hypotheses()) {
-      track.placed |= 1u << hypothesis.slot;
-      const std::uint32_t place = place_of(number, hypothesis);
-      bounds_[place] = inflated_bound(number, hypothesis, next.end);
-      starters.push_back({place, SizeClasses::size_class_of(*bounds_[place], next), next});
-    }
-  }
-  PoolLease alone;
-  const auto bound_of = [&](std::uint32_t place) -> const InflatedBound& { return *bounds_[place]; };
-  broad_phase_.start(starters, time_, bound_of, alone);
-  counters_.searches += starters.size();
-  const std::size_t started = broad_phase_.started_slots();
-  constexpr std::size_t at_once = 256;
-  for (std::size_t from = 0; from < started; from += at_once)
-    for (const auto& [a, b] :
-         search_.near_started(broad_phase_, from, std::min(started, from + at_once), time_, bound_of))
-      find_pair(track_at(a), track_at(b));
-  // Longer windows find more pairs, which take memory, so a window that finds many counts as an eighth of
-  // one.
-  constexpr std::size_t many_pairs_for_each = 16;
-  constexpr std::uint64_t slower = 8;
-  const bool finds_many = counters_.near_pairs - pairs_before > many_pairs_for_each * numbers.size();
-  if (!finds_many || counters_.windows % slower == 0) ++quiet_windows_;
-  return {};
-}
 }  // namespace kinesphere

@@ -1,4 +1,4 @@
-// Records of pairs that are not certainly apart, or were not so at some time in the current window.
+// Records of pairs: what is certain of two tracks, and until when.
 #pragma once
 
 #include <algorithm>
@@ -18,10 +18,13 @@ struct LevelState {
   double until = -infinity;  ///< A certain verdict holds until this time, whatever is reported.
 };
 
+/// Two tracks that are near each other. As long as they are certified to be apart at all levels until `due`,
+/// `levels` is empty; otherwise the pair is open, and has a state at each level.
 struct PairRecord {
-  std::uint32_t revision = 0;  ///< Certificates of the pair with another revision are stale.
+  double due = infinity;  ///< when time alone may change a verdict
   std::vector<LevelState> levels;
 
+  bool is_open() const { return !levels.empty(); }
   bool is_apart() const {
     return std::all_of(levels.begin(), levels.end(),
                        [](const LevelState& state) { return state.verdict == Verdict::apart; });
@@ -30,9 +33,9 @@ struct PairRecord {
     return std::any_of(levels.begin(), levels.end(),
                        [](const LevelState& state) { return state.verdict == Verdict::undecided; });
   }
-  /// Returns true if a certain verdict of the pair no longer holds at time `now`.
+  /// Returns true if the pair is certified to be apart, or has a certain verdict, only until `now`.
   bool is_expiring(double now) const {
-    return std::any_of(levels.begin(), levels.end(), [now](const LevelState& state) {
+    return !is_open() || std::any_of(levels.begin(), levels.end(), [now](const LevelState& state) {
       return state.verdict != Verdict::undecided && state.until <= now;
     });
   }
@@ -85,22 +88,6 @@ class PairMap {
   }
 
   std::unordered_map<std::uint64_t, Record> records_;
-};
-
-/// The PairRecords of a monitor, and the revisions given to them.
-class PairRecords : public PairMap<PairRecord> {
- public:
-  PairRecord& add(std::uint32_t a, std::uint32_t b, std::size_t levels) {
-    PairRecord& record = PairMap::add(a, b);
-    record.levels.resize(levels);
-    return record;
-  }
-  std::uint32_t fresh_revision() { return ++last_revision_; }
-  std::uint32_t last_revision() const { return last_revision_; }
-  void start_revisions_at(std::uint32_t revision) { last_revision_ = revision; }
-
- private:
-  std::uint32_t last_revision_ = 0;
 };
 
 }  // namespace kinesphere

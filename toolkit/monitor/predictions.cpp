@@ -13,14 +13,6 @@ constexpr double look_ahead_to_spare = 0.75;
 /// Room for other paths, in parts of the length of the path.
 constexpr double room_beside_path = 0.1;
 
-void insert_sorted(std::vector<std::uint32_t>& numbers, std::uint32_t number) {
-  numbers.insert(std::lower_bound(numbers.begin(), numbers.end(), number), number);
-}
-
-void erase_sorted(std::vector<std::uint32_t>& numbers, std::uint32_t number) {
-  numbers.erase(std::lower_bound(numbers.begin(), numbers.end(), number));
-}
-
 /// False if two that go straight on never come nearer than `reach` (length).
 bool may_meet(const State& first, const State& second, double reach) {
   const Vec3 offset = first.position - second.position;
@@ -50,15 +42,14 @@ void Predictions::set_path(std::uint32_t number, TrackId id, std::size_t track_c
     track.id = id;
     track.track_class = track_class;
     track.until = -infinity;
-    track.home = {};
   }
-  if (!stays_home(track, now)) find_home(number, now);
+  if (!stays_home(number, now)) find_home(number, now);
   decide_all(number, now, events);
 }
 
 void Predictions::remove(std::uint32_t number) {
   if (number >= tracks_.size() || !tracks_[number].present) return;
-  while (!tracks_[number].near.empty()) part(number, tracks_[number].near.back());
+  for (const std::uint32_t other : homes_.near(number)) remove_pair(number, other);
   homes_.remove(number);
   tracks_[number] = {};
 }
@@ -77,12 +68,14 @@ Components Predictions::with_errors(const Components& level, const Track& a, con
 
 /// True if the track's path from now until its look-ahead time after the home's end is in the home, which
 /// contains both ends only if it contains the path.
-bool Predictions::stays_home(const Track& track, double now) const {
+bool Predictions::stays_home(std::uint32_t number, double now) const {
+  const Track& track = tracks_[number];
   if (!(now < track.until)) return false;
-  const double room = track.home.radius - margin(track);
+  const Region home = homes_.region(number, 0);
+  const double room = home.radius - margin(track);
   const double end = track.until + separations_->look_ahead(track.track_class);
   const auto is_inside = [&](double t) {
-    return norm(track.path.state_at(t).position - track.home.centre) <= room;
+    return norm(track.path.state_at(t).position - home.centre) <= room;
   };
   return is_inside(now) && is_inside(end);
 }
@@ -91,24 +84,22 @@ bool Predictions::stays_home(const Track& track, double now) const {
 /// stays near until that has ended.
 void Predictions::find_home(std::uint32_t number, double now) {
   Track& track = tracks_[number];
-  if (track.home.radius > 0.0) homes_.remove(number);
   const double look_ahead = separations_->look_ahead(track.track_class);
   track.until = std::max(now + look_ahead_to_spare * look_ahead, std::nextafter(now, infinity));
   const double half = 0.5 * (track.until - now + look_ahead);
   const State middle = track.path.state_at(now + half);
   const double radius = norm(middle.velocity) * half * (1.0 + room_beside_path) + 2.0 * margin(track);
-  track.home = {middle.position, radius};
-  add_due({track.until, number, number});
-  const std::vector<std::uint32_t> touching = homes_.touching(track.home);
-  homes_.add(number, track.home);
-  const std::vector<std::uint32_t> before = track.near;
-  for (const std::uint32_t other : before) {
-    if (std::binary_search(touching.begin(), touching.end(), other)) continue;
+  const Region home{middle.position, radius};
+  add_due({track.until, DueTime::About::region, number});
+  homes_.place(number, std::span(&home, 1), [this](std::uint32_t a, std::uint32_t b) {
+    return !levels_of(tracks_[a], tracks_[b]).empty();
+  });
+  for (const std::uint32_t other : homes_.gone()) {
     const PairPrediction* pair = find_pair(number, other);
-    if (pair == nullptr || !pair->is_predicted()) part(number, other);
+    if (pair != nullptr && pair->is_predicted()) continue;
+    remove_pair(number, other);
+    homes_.part(number, other);
   }
-  for (const std::uint32_t other : touching)
-    if (!std::binary_search(before.begin(), before.end(), other)) meet(number, other);
 }
 
 PairPrediction* Predictions::find_pair(std::uint32_t a, std::uint32_t b) {
@@ -132,26 +123,10 @@ void Predictions::remove_pair(std::uint32_t a, std::uint32_t b) {
   pairs_.remove(a, b);
 }
 
-void Predictions::meet(std::uint32_t a, std::uint32_t b) {
-  if (levels_of(tracks_[a], tracks_[b]).empty()) return;
-  insert_sorted(tracks_[a].near, b);
-  insert_sorted(tracks_[b].near, a);
-}
-
-void Predictions::part(std::uint32_t a, std::uint32_t b) {
-  remove_pair(a, b);
-  erase_sorted(tracks_[a].near, b);
-  erase_sorted(tracks_[b].near, a);
-}
-
 void Predictions::decide_all(std::uint32_t number, double now, std::vector<MonitorEvent>& events) {
-  const std::vector<std::uint32_t>& near = tracks_[number].near;
-  for (std::size_t k = 0; k < near.size();) {
-    const std::uint32_t other = near[k];
-    decide(number, other, now, events);
-    // A pair whose prediction has ended may have parted.
-    if (k < near.size() && near[k] == other) ++k;
-  }
+  // A pair whose prediction has ended may part: the last of those near takes its place.
+  for (std::size_t k = homes_.near(number).size(); k-- > 0;)
+    decide(number, homes_.near(number)[k], now, events);
 }
 
 /// Returns how the two pass each other at the separation that decides whether they are predicted: the
@@ -225,23 +200,32 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
     }
   }
   // The homes may have parted while the pair was predicted.
-  if (was_predicted && !pair.is_predicted() && !touch(one.home, other.home)) return part(a, b);
+  if (was_predicted && !pair.is_predicted() && !homes_.touch(a, b)) {
+    remove_pair(a, b);
+    return homes_.part(a, b);
+  }
   if (due == pair.due) return;
   pair.due = due;
-  if (due < infinity) add_due({due, std::min(a, b), std::max(a, b)});
+  if (due < infinity) add_due({due, DueTime::About::pair, std::min(a, b), std::max(a, b)});
+}
+
+/// Returns false if this time is stale.
+bool Predictions::is_due(const DueTime& due) const {
+  if (due.about == DueTime::About::region)
+    return tracks_[due.first].present && tracks_[due.first].until == due.time;
+  const PairPrediction* pair = pairs_.find(due.first, due.second);
+  return pair != nullptr && pair->due == due.time;
 }
 
 void Predictions::advance(double now, std::vector<MonitorEvent>& events) {
   while (next_time() <= now) {
-    const auto [time, first, second] = due_.top();
-    due_.pop();
-    if (first == second) {
-      if (!tracks_[first].present || tracks_[first].until != time) continue;
-      find_home(first, now);
-      decide_all(first, now, events);
-    } else if (const PairPrediction* pair = pairs_.find(first, second);
-               pair != nullptr && pair->due == time) {
-      decide(first, second, now, events);
+    const DueTime due = due_.take_first();
+    if (!is_due(due)) continue;
+    if (due.about == DueTime::About::region) {
+      find_home(due.first, now);
+      decide_all(due.first, now, events);
+    } else {
+      decide(due.first, due.second, now, events);
     }
   }
 }
@@ -255,74 +239,59 @@ bool Predictions::restore(std::span<const std::optional<TrackKey>> tracks, doubl
     if (!is_present) continue;
     tracks_[number].id = key->id;
     tracks_[number].track_class = key->track_class;
+    if (!is_valid(tracks_[number], now)) return false;
   }
-  if (!is_valid(now)) return false;
-  for (std::uint32_t number = 0; number < tracks_.size(); ++number)
-    if (tracks_[number].present) homes_.add(number, tracks_[number].home);
-  pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction&) {
-    ++tracks_[a].pairs;
-    ++tracks_[b].pairs;
-  });
+  const auto homes_of = [this](std::uint32_t number) { return tracks_[number].present ? 1U : 0U; };
+  const auto matters = [&](std::uint32_t a, std::uint32_t b) {
+    return !levels_of(tracks_[a], tracks_[b]).empty();
+  };
+  if (!homes_.rebuild(tracks_.size(), homes_of, matters) || !restore_pairs()) return false;
   index_due();
   return true;
 }
 
-bool Predictions::is_valid(double now) const {
-  const auto is_present = [&](std::uint32_t number) {
-    return number < tracks_.size() && tracks_[number].present;
-  };
-  for (std::uint32_t number = 0; number < tracks_.size(); ++number) {
-    const Track& track = tracks_[number];
-    if (!track.present) {
-      if (!track.near.empty()) return false;
-      continue;
-    }
-    // The indices of cells must be integers.
-    constexpr double most_radii = 0x1p60;
-    const bool is_sound =
-        track.path.time <= now && std::isfinite(track.path.time) && is_finite(track.path.state.position) &&
-        is_finite(track.path.state.velocity) && track.path.error.total() >= 0.0 &&
-        track.path.error.horizontal() >= 0.0 && track.path.error.vertical() >= 0.0 &&
-        std::isfinite(track.path.error.total(separations_->stretch(track.track_class))) &&
-        std::isfinite(track.home.radius) && track.home.radius >= separations_->margin(track.track_class) &&
-        norm(track.home.centre) <= most_radii * track.home.radius && std::isfinite(track.until);
-    if (!is_sound) return false;
-    for (std::size_t k = 0; k < track.near.size(); ++k) {
-      const std::uint32_t other = track.near[k];
-      if ((k > 0 && track.near[k - 1] >= other) || !is_present(other) || other == number ||
-          levels_of(track, tracks_[other]).empty() ||
-          !std::binary_search(tracks_[other].near.begin(), tracks_[other].near.end(), number))
-        return false;
-    }
-  }
+/// Returns false if a pair that was read cannot be one of these tracks.
+bool Predictions::restore_pairs() {
   bool valid = true;
   pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction& pair) {
+    const auto is_present = [&](std::uint32_t number) {
+      return number < tracks_.size() && tracks_[number].present;
+    };
     valid =
-        valid && a < b && is_present(a) && is_present(b) &&
-        std::binary_search(tracks_[a].near.begin(), tracks_[a].near.end(), b) && !std::isnan(pair.due) &&
+        valid && a < b && is_present(a) && is_present(b) && !std::isnan(pair.due) && !pair.levels.empty() &&
         pair.levels.size() == levels_of(tracks_[a], tracks_[b]).size() &&
+        (homes_.are_near(a, b) || pair.is_predicted()) &&
         std::all_of(pair.levels.begin(), pair.levels.end(), [](const LevelPrediction& level) {
           return !std::isnan(level.since) && !std::isnan(level.held_since) && !std::isnan(level.held_until);
         });
+    if (!valid) return;
+    if (!homes_.are_near(a, b)) homes_.join(a, b);
+    ++tracks_[a].pairs;
+    ++tracks_[b].pairs;
   });
   return valid;
 }
 
-/// Adds a time to the queue. Where most of the queue is out of date, makes it anew: reports that change a far
-/// time again and again would fill it. Precondition: the track or the pair has this time.
-void Predictions::add_due(const Due& due) {
-  constexpr std::size_t least = 64;
-  if (due_.size() > least + 2 * (tracks_.size() + pairs_.size())) return index_due();
-  due_.push(due);
+bool Predictions::is_valid(const Track& track, double now) const {
+  const auto& [time, state, error] = track.path;
+  return time <= now && std::isfinite(time) && is_finite(state.position) && is_finite(state.velocity) &&
+         error.total() >= 0.0 && error.horizontal() >= 0.0 && error.vertical() >= 0.0 &&
+         std::isfinite(error.total(separations_->stretch(track.track_class))) && std::isfinite(track.until);
+}
+
+/// Adds a time to the queue. Precondition: the track or the pair has this time.
+void Predictions::add_due(const DueTime& due) {
+  if (due_.are_stale(tracks_.size() + pairs_.size())) return index_due();
+  due_.add(due);
 }
 
 /// Makes the queue from the times of the tracks and pairs.
 void Predictions::index_due() {
-  due_ = {};
+  due_.clear();
   for (std::uint32_t number = 0; number < tracks_.size(); ++number)
-    if (tracks_[number].present) due_.push({tracks_[number].until, number, number});
+    if (tracks_[number].present) due_.add({tracks_[number].until, DueTime::About::region, number});
   pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction& pair) {
-    if (pair.due < infinity) due_.push({pair.due, a, b});
+    if (pair.due < infinity) due_.add({pair.due, DueTime::About::pair, a, b});
   });
 }
 

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <queue>
 #include <span>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "kinesphere/monitor/monitor.hpp"
-#include "monitor/home_balls.hpp"
+#include "monitor/due_times.hpp"
+#include "monitor/near_tracks.hpp"
 #include "monitor/pair_records.hpp"
 #include "monitor/separation_table.hpp"
 #include "monitor/straight_pass.hpp"
@@ -58,7 +56,9 @@ class Predictions {
  public:
   /// The arguments must outlive this object.
   Predictions(const MonitorDefinition& definition, const SeparationTable& separations)
-      : definition_(&definition), separations_(&separations) {}
+      : definition_(&definition),
+        separations_(&separations),
+        homes_(definition.tolerance, definition.dimensions) {}
 
   /// Sets the straight path of a track, new or known, with the position error of its report, and adds the
   /// events of predictions that change. Cost: O(near tracks); where the path leaves the track's home, a
@@ -68,7 +68,7 @@ class Predictions {
   /// Forgets a track. Its predictions end without events.
   void remove(std::uint32_t number);
   /// Returns a lower bound on the time at which time alone changes anything; +infinity if nothing does.
-  double next_time() const { return due_.empty() ? infinity : due_.top().time; }
+  double next_time() const { return due_.next_time(); }
   /// Handles all that is due at `now`.
   void advance(double now, std::vector<MonitorEvent>& events);
 
@@ -89,7 +89,7 @@ class Predictions {
     std::vector<SavedPair<PairPrediction>> pairs;
     constexpr bool writes = std::is_const_v<std::remove_reference_t<decltype(self)>>;
     if constexpr (writes) pairs = self.pairs_.sorted();
-    archive(self.tracks_, pairs);
+    archive(self.tracks_, self.homes_, pairs);
     if constexpr (!writes)
       for (const auto& [first, second, pair] : pairs) self.pairs_.add(first, second) = pair;
   }
@@ -100,39 +100,27 @@ class Predictions {
     TrackId id = 0;
     std::size_t track_class = 0;
     StraightPath path{};
-    HomeBall home{};
-    double until = 0.0;
-    std::vector<std::uint32_t> near;  ///< ascending
-    std::uint32_t pairs = 0;          ///< number of its PairPredictions
+    double until = 0.0;       ///< end of its home
+    std::uint32_t pairs = 0;  ///< number of its PairPredictions
 
     static void serialize(auto& self, auto& archive) {
-      auto& [present, id, track_class, path, home, until, near, pairs] = self;
-      archive(present, path, home, until, near);
+      auto& [present, id, track_class, path, until, pairs] = self;
+      archive(present, path, until);
     }
   };
-  /// A time at which a pair or, if both numbers are equal, the home of a track is due. It is out of date
-  /// unless the pair or the track has this time.
-  struct Due {
-    double time;
-    std::uint32_t first, second;
-    bool operator>(const Due& other) const {
-      return std::tie(time, first, second) > std::tie(other.time, other.first, other.second);
-    }
-  };
-
-  bool is_valid(double now) const;
-  void add_due(const Due& due);
+  bool is_valid(const Track& track, double now) const;
+  bool restore_pairs();
+  bool is_due(const DueTime& due) const;
+  void add_due(const DueTime& due);
   void index_due();
   std::span<const Components> levels_of(const Track& a, const Track& b) const;
   Components with_errors(const Components& level, const Track& a, const Track& b) const;
   double margin(const Track& track) const;
-  bool stays_home(const Track& track, double now) const;
+  bool stays_home(std::uint32_t number, double now) const;
   void find_home(std::uint32_t number, double now);
   PairPrediction* find_pair(std::uint32_t a, std::uint32_t b);
   PairPrediction& add_pair(std::uint32_t a, std::uint32_t b, std::size_t levels);
   void remove_pair(std::uint32_t a, std::uint32_t b);
-  void meet(std::uint32_t a, std::uint32_t b);
-  void part(std::uint32_t a, std::uint32_t b);
   void decide_all(std::uint32_t number, double now, std::vector<MonitorEvent>& events);
   StraightPass judge(const State& first, const State& second, const Components& level,
                      const StraightPass& pass, bool is_predicted, double now) const;
@@ -142,8 +130,8 @@ class Predictions {
   const SeparationTable* separations_;
   std::vector<Track> tracks_;
   PairMap<PairPrediction> pairs_;
-  HomeBalls homes_;
-  std::priority_queue<Due, std::vector<Due>, std::greater<>> due_;
+  NearTracks homes_;
+  DueTimes due_;
 };
 
 }  // namespace kinesphere

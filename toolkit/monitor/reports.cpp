@@ -17,7 +17,7 @@ namespace kinesphere {
 Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
   if (Result<void> checked = check(id, report, "report"); !checked) return checked;
   if (!has_started_) start_clock(report.timestamp);
-  const std::uint32_t number = take(id, report, Placing::now);
+  const std::uint32_t number = take(id, report);
   decide_open_pairs(number);
   predict(number);
   return {};
@@ -76,10 +76,24 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
   return check.result();
 }
 
+/// Returns a report as the monitor counts it: without z in two dimensions.
+TrackReport Monitor::Engine::as_seen(const TrackReport& report) const {
+  TrackReport seen = report;
+  if (definition_.dimensions != 2) return seen;
+  seen.state.position.z = 0.0;
+  seen.state.velocity.z = 0.0;
+  seen.position_error = seen.position_error.flat();
+  seen.velocity_error = seen.velocity_error.flat();
+  if (seen.plan) {
+    seen.plan->acceleration.z = 0.0;
+    seen.plan->acceleration_limit = seen.plan->acceleration_limit.flat();
+  }
+  return seen;
+}
+
 /// Applies a checked report to its track. The caller decides the track's open pairs afterwards, once all
 /// reports that arrive together are applied. Returns the track's number.
-std::uint32_t Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placing) {
-  const TrackClass& track_class = classes_[report.track_class];
+std::uint32_t Monitor::Engine::take(TrackId id, const TrackReport& report) {
   auto known = tracks_.find(id);
   if (known && tracks_[*known].track_class != report.track_class) {
     drop(*known, MonitorEventKind::reclassified);
@@ -87,73 +101,50 @@ std::uint32_t Monitor::Engine::take(TrackId id, const TrackReport& report, Placi
   }
   const std::uint32_t number = known ? *known : tracks_.add(id, report.track_class);
   KnownTrack& track = tracks_[number];
-  TrackReport flat = report;
-  if (definition_.dimensions == 2) {
-    flat.state.position.z = 0.0;
-    flat.state.velocity.z = 0.0;
-    flat.position_error = flat.position_error.flat();
-    flat.velocity_error = flat.velocity_error.flat();
-    if (flat.plan) {
-      flat.plan->acceleration.z = 0.0;
-      flat.plan->acceleration_limit = flat.plan->acceleration_limit.flat();
-    }
-  }
-  const TrackEstimate::Learned learned = track.estimate.update(flat, track_class, time_, power_of_two(rung_));
-  quiet_windows_ = std::min(quiet_windows_, sparse_windows_);
+  const TrackEstimate::Learned learned =
+      track.estimate.update(as_seen(report), classes_[report.track_class], time_, power_of_two(rung_));
+  hasten_round();
   if (learned.outcome == TrackEstimate::Outcome::repeated) {
     ++counters_.repeated;
     return number;
   }
   ++counters_.reports;
   if (learned.late) ++counters_.late;
-  std::uint32_t slots = 0;
-  for (const Hypothesis& hypothesis : track.estimate.hypotheses()) slots |= 1u << hypothesis.slot;
-  track.placed &= slots;
-  if (!known) {
-    place(number);
+  if (known) {
+    note_learned(number, learned);
+  } else {
+    move_regions(number);
     expect_to_hear(number);
-    return number;
   }
+  return number;
+}
+
+/// Tells what a report says about a known track, and ends what it makes uncertain.
+void Monitor::Engine::note_learned(std::uint32_t number, const TrackEstimate::Learned& learned) {
+  KnownTrack& track = tracks_[number];
   if (track.stale && time_ - track.estimate.timestamp() < definition_.stale_after) {
     track.stale = false;
-    queue({.time = time_, .kind = MonitorEventKind::resumed, .first = id});
+    queue({.time = time_, .kind = MonitorEventKind::resumed, .first = track.id});
     expect_to_hear(number);
   }
   if (learned.outcome == TrackEstimate::Outcome::contradicts) {
     ++counters_.contradictions;
     queue({.time = time_,
            .kind = MonitorEventKind::contradiction,
-           .first = id,
+           .first = track.id,
            .position_excess = learned.excess.position,
            .velocity_excess = learned.excess.velocity});
   }
   if (learned.outcome == TrackEstimate::Outcome::resolves)
-    queue({.time = time_, .kind = MonitorEventKind::resolved, .first = id});
-  if (!learned.ends_certainty) return number;
+    queue({.time = time_, .kind = MonitorEventKind::resolved, .first = track.id});
+  // Each hypothesis has its own region.
+  if (learned.ends_certainty || learned.outcome == TrackEstimate::Outcome::resolves) move_regions(number);
+  if (!learned.ends_certainty) return;
+  for (const std::uint32_t other : near_.near(number))
+    if (PairRecord* pair = pairs_.find(number, other); pair != nullptr && !pair->is_open())
+      set_due(number, other, *pair, time_);
   for (const std::uint32_t other : track.open)
-    for (LevelState& state : pair_records_.find(number, other)->levels) state.until = -infinity;
-  if (placing == Placing::now) place(number);
-  return number;
-}
-
-/// Enters the track's hypotheses that have no swept sphere yet into the broad phase, adds the pairs that the
-/// search finds, and decides the track's open pairs. Call it when a track is new or may be outside of its
-/// earlier bounds.
-void Monitor::Engine::place(std::uint32_t number) {
-  KnownTrack& track = tracks_[number];
-  window_ = window();
-  const Window& now = window_;
-  for (const Hypothesis& hypothesis : track.estimate.hypotheses()) {
-    if ((track.placed & 1u << hypothesis.slot) != 0) continue;
-    track.placed |= 1u << hypothesis.slot;
-    const std::uint32_t at = place_of(number, hypothesis);
-    const InflatedBound bound = inflated_bound(number, hypothesis, now.end);
-    broad_phase_.enter(at, bound, time_, now);
-    ++counters_.searches;
-    // find_pair() does not search, so the results of search_ remain valid in this loop.
-    for (const std::uint32_t near : search_.near(broad_phase_, at, bound, time_, now.end))
-      find_pair(number, track_at(near));
-  }
+    for (LevelState& state : pairs_.find(number, other)->levels) state.until = -infinity;
   decide_open_pairs(number);
 }
 
@@ -175,31 +166,24 @@ void Monitor::Engine::drop(std::uint32_t number, MonitorEventKind kind) {
     return event.first == track.id && kind == MonitorEventKind::dropped &&
            event.kind != MonitorEventKind::dropped;
   });
+  for (const std::uint32_t other : near_.near(number)) pairs_.remove(number, other);
   for (const std::uint32_t other : track.open) {
-    pair_records_.remove(number, other);
+    pairs_.remove(number, other);
     std::erase(tracks_[other].open, number);
   }
+  open_pairs_ -= track.open.size();
+  near_.remove(number);
   queue({.time = time_, .kind = kind, .first = track.id});
-  for (std::uint32_t slot = 0; slot < TrackEstimate::slots; ++slot)
-    if (const std::uint32_t place = number * TrackEstimate::slots + slot; broad_phase_.contains(place))
-      broad_phase_.leave(place);
   tracks_.remove(number);
 }
 
-/// Schedules the time at which the track becomes stale or, if it is stale, is dropped. Invalidates the
-/// previously scheduled time.
+/// Sets the time at which the track becomes stale or, if it is stale, is dropped.
 void Monitor::Engine::expect_to_hear(std::uint32_t number) {
   KnownTrack& track = tracks_[number];
   const double after =
       track.stale ? definition_.drop_after : std::min(definition_.stale_after, definition_.drop_after);
-  const double time = std::max(time_, track.estimate.timestamp() + after);
-  ++track.expected;
-  if (time < infinity)
-    queue_.add({.failure_time = time,
-                .first = number,
-                .second = PairCertificate::silence,
-                .first_revision = track.life,
-                .second_revision = track.expected});
+  track.silent_at = std::max(time_, track.estimate.timestamp() + after);
+  add_due({track.silent_at, DueTime::About::silence, number});
 }
 
 /// Drops a track, or makes it stale, if it has been silent for so long; otherwise schedules the next look.

@@ -11,7 +11,7 @@ namespace kinesphere {
 namespace {
 
 /// Largest number of hypotheses; a further contradiction replaces the oldest one.
-constexpr std::size_t most_hypotheses = TrackEstimate::slots - 1;
+constexpr std::size_t most_hypotheses = 3;
 
 /// Returns the report with its timestamp error converted into errors of the state at the timestamp. If the
 /// timestamp may be wrong, the plan in force may be so too: accelerations differ from the class's planned
@@ -226,7 +226,7 @@ bool is_valid(const ReachableSet& set) {
 /// Checks a restored hypothesis. A set of the latest report has to hold from `now` on without end, so that
 /// tightest() finds a set even after a later report has replaced all others.
 bool is_valid(const Hypothesis& hypothesis, double now) {
-  const auto& [latest, plans, slot, latest_sets, sets] = hypothesis;
+  const auto& [latest, plans, latest_sets, sets] = hypothesis;
   if (!is_time(latest.timestamp) || !is_within(latest.state.position, most_length) ||
       !is_within(latest.state.velocity, most_speed) || !is_within(latest.position_error, most_length) ||
       !is_within(latest.velocity_error, infinity) || std::isnan(plans.end) ||
@@ -272,10 +272,8 @@ TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const Tr
   if (agreeing.empty()) {
     learned.outcome = Outcome::contradicts;
     learned.ends_certainty = true;
-    Hypothesis other = next(all);
-    other.slot = free_slot();
     if (hypotheses_.size() == most_hypotheses) hypotheses_.erase(hypotheses_.begin());
-    hypotheses_.push_back(std::move(other));
+    hypotheses_.push_back(next(all));
     return learned;
   }
   if (hypotheses_.size() > 1) learned.outcome = Outcome::resolves;
@@ -289,13 +287,11 @@ TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const Tr
     if (agreeing.size() == 1 && exact.timestamp < believed.latest.timestamp)
       only = joined(hypothesis_of(believed.latest, {}, track_class, all, now), std::move(only), now,
                     now + ahead);
-    only.slot = free_slot();
     hypotheses_ = {std::move(only)};
     return learned;
   }
   Hypothesis believed = std::move(hypotheses_[agreeing.front()]);
   Hypothesis latest = next(believed.plans);
-  latest.slot = believed.slot;
   hypotheses_.clear();
   const bool newer = exact.timestamp >= believed.latest.timestamp;
   hypotheses_.push_back(newer ? joined(std::move(latest), std::move(believed), now, now + ahead)
@@ -316,14 +312,6 @@ const ReachableSet& TrackEstimate::tightest(const Hypothesis& hypothesis, double
   }
   assert(best != nullptr);
   return *best;
-}
-
-std::uint32_t TrackEstimate::free_slot() const {
-  std::uint32_t slot = 0;
-  while (std::any_of(hypotheses_.begin(), hypotheses_.end(),
-                     [slot](const Hypothesis& hypothesis) { return hypothesis.slot == slot; }))
-    ++slot;
-  return slot;
 }
 
 Bound TrackEstimate::bound(const Hypothesis& hypothesis, double now, double end) {
@@ -362,14 +350,9 @@ double TrackEstimate::timestamp() const {
 }
 
 bool TrackEstimate::is_valid(double now) const {
-  std::uint32_t taken = 0;
-  for (const Hypothesis& hypothesis : hypotheses_) {
-    // Two hypotheses with one slot would share a swept sphere.
-    if (hypothesis.slot >= slots || (taken & 1u << hypothesis.slot) != 0) return false;
-    taken |= 1u << hypothesis.slot;
-    if (!kinesphere::is_valid(hypothesis, now)) return false;
-  }
-  return !hypotheses_.empty() && hypotheses_.size() <= most_hypotheses;
+  return !hypotheses_.empty() && hypotheses_.size() <= most_hypotheses &&
+         std::all_of(hypotheses_.begin(), hypotheses_.end(),
+                     [now](const Hypothesis& hypothesis) { return kinesphere::is_valid(hypothesis, now); });
 }
 
 double TrackEstimate::first_end() const {

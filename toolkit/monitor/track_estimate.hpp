@@ -23,17 +23,15 @@ struct ExactReport {
 
 /// One explanation of the reports of a track. If it is true, all of its reachable sets contain the track.
 struct Hypothesis {
-  ExactReport latest{};      ///< For comparison with other reports, both before and after it.
-  PlansBeyondClass plans{};  ///< Plans of all its reports.
-  std::uint32_t slot = 0;    ///< Unique among the track's hypotheses, and differs from the slots in use just
-                             ///< before this one was added.
+  ExactReport latest{};           ///< For comparison with other reports, both before and after it.
+  PlansBeyondClass plans{};       ///< Plans of all its reports.
   std::uint32_t latest_sets = 0;  ///< Number of the sets of the latest report.
   /// The sets of the latest report first, then at most one set of an earlier report.
   std::vector<ReachableSet> sets;
 
   static void serialize(auto& self, auto& archive) {
-    auto& [latest, plans, slot, latest_sets, sets] = self;
-    archive(slot, latest, plans, latest_sets, sets);
+    auto& [latest, plans, latest_sets, sets] = self;
+    archive(latest, plans, latest_sets, sets);
   }
 };
 
@@ -50,9 +48,6 @@ struct Excess {
 /// other.
 class TrackEstimate {
  public:
-  /// Number of hypothesis slots; one of them always is free.
-  static constexpr std::uint32_t slots = 4;
-
   enum class Outcome {
     repeated,     ///< The report repeats an earlier one.
     agrees,       ///< The report agrees with the only hypothesis.
@@ -90,8 +85,7 @@ class TrackEstimate {
   /// to keep a given sum of radii, the fewest reports are needed where their ages are as A^(-1/3) : B^(-1/3).
   /// The priorities are equal then.
   double worth_asking(double time) const;
-  /// Checks a restored estimate: each hypothesis has its own slot, and at every time from `now` on a
-  /// reachable set that holds.
+  /// Checks a restored estimate: each hypothesis has a reachable set that holds at every time from `now` on.
   bool is_valid(double now) const;
   /// Returns the earliest end of all reachable sets.
   double first_end() const;
@@ -102,8 +96,6 @@ class TrackEstimate {
   }
 
  private:
-  std::uint32_t free_slot() const;
-
   std::vector<Hypothesis> hypotheses_;
 };
 

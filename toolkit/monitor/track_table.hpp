@@ -17,14 +17,12 @@ struct KnownTrack {
   std::size_t track_class = 0;
   bool present = false;
   bool stale = false;
-  std::uint32_t life = 0;  ///< Unique among all tracks that ever existed.
-  /// Bit mask of the slots of hypotheses that have their own swept sphere. A hypothesis without one lies
-  /// within the swept spheres of the hypotheses that it replaced.
-  std::uint32_t placed = 0;
-  /// Revision of the scheduled stale or drop time; queue entries with another value are stale.
-  std::uint32_t expected = 0;
+  double stay = 0.0;  ///< for how long its next regions are to contain it (time, > 0)
+  double own = 0.0;   ///< it is in its regions until this time
+  /// When it becomes stale or, if it is stale, is dropped.
+  double silent_at = 0.0;
   TrackEstimate estimate{};
-  std::vector<std::uint32_t> open;  ///< Numbers of the tracks with which this one has a PairRecord.
+  std::vector<std::uint32_t> open;  ///< Numbers of the tracks with which this one has an open pair.
 };
 
 class TrackTable {
@@ -52,7 +50,6 @@ class TrackTable {
     track.id = id;
     track.track_class = track_class;
     track.present = true;
-    track.life = ++last_life_;
     return number;
   }
   void remove(std::uint32_t number) {
@@ -70,8 +67,8 @@ class TrackTable {
   }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [tracks, free, last_life, numbers] = self;
-    archive(tracks, free, last_life);
+    auto& [tracks, free, numbers] = self;
+    archive(tracks, free);
   }
   /// Rebuilds the lookup by id of a restored table. Returns false if the table is invalid.
   bool index() {
@@ -79,7 +76,6 @@ class TrackTable {
     for (std::uint32_t number = 0; number < tracks_.size(); ++number) {
       const KnownTrack& track = tracks_[number];
       if (track.present && !numbers_.add(track.id, number)) return false;
-      if (track.life > last_life_) return false;
     }
     std::vector<bool> seen(tracks_.size(), false);
     for (const std::uint32_t number : free_) {
@@ -92,7 +88,6 @@ class TrackTable {
  private:
   std::vector<KnownTrack> tracks_;
   std::vector<std::uint32_t> free_;
-  std::uint32_t last_life_ = 0;
   IdIndex numbers_;
 };
 

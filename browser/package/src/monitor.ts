@@ -14,7 +14,6 @@ export interface MonitorCounters {
   repeated: number;
   contradictions: number;
   polls: number;
-  windows: number;
   searches: number;
   nearPairs: number;
   rechecks: number;
@@ -192,10 +191,9 @@ export class Monitor extends Owned {
       repeated: numbers[2]!,
       contradictions: numbers[3]!,
       polls: numbers[4]!,
-      windows: numbers[5]!,
-      searches: numbers[6]!,
-      nearPairs: numbers[7]!,
-      rechecks: numbers[8]!,
+      searches: numbers[5]!,
+      nearPairs: numbers[6]!,
+      rechecks: numbers[7]!,
     };
   }
   /** Returns the ids of all tracks, in ascending order. */

@@ -72,9 +72,10 @@ struct MonitorDefinition {
   /// less than this stays undecided. A certain verdict never lasts too long. Where doubles of the size of
   /// time() are coarser, 2^-50 of time() applies instead.
   double time_resolution = 1e-3;
-  /// Length of the search window (time, > 0), in [limits::least_time, limits::largest_time]: about the time
-  /// between two reports of a track. It affects only speed and the horizon of needed(), and is rounded down
-  /// to a power of two. While no reports arrive, windows become longer and longer.
+  /// About the time between two reports of a track (time, > 0), in [limits::least_time,
+  /// limits::largest_time], rounded down to a power of two. It affects speed, the horizon of needed(), and
+  /// how often the reports of undecided pairs are requested: at its multiples. The region in which a track is
+  /// looked for contains it for at least this time, and for longer where there is little around it.
   double window = 1.0;
   /// Ages of a track's latest report (time, > 0) at which the track becomes stale (MonitorEventKind::stale)
   /// and at which it is dropped (MonitorEventKind::dropped). Infinity, the default, disables them.
@@ -106,9 +107,8 @@ struct MonitorCounters {
   std::uint64_t repeated = 0;        ///< Reports that repeat an earlier one; they have no effect.
   std::uint64_t contradictions = 0;  ///< Reports that contradict all hypotheses of their track.
   std::uint64_t polls = 0;           ///< Requests for a track's report through a Poll.
-  std::uint64_t windows = 0;         ///< Search windows that have started.
-  std::uint64_t searches = 0;        ///< Broad-phase searches for the neighbours of a hypothesis.
-  std::uint64_t near_pairs = 0;      ///< Pairs found by those searches.
+  std::uint64_t searches = 0;        ///< Searches for the tracks around a new region of a hypothesis.
+  std::uint64_t near_pairs = 0;      ///< Pairs that have come near each other by those searches.
   std::uint64_t rechecks = 0;        ///< Evaluations of a pair at one separation level.
 
   friend constexpr bool operator==(const MonitorCounters&, const MonitorCounters&) = default;
@@ -282,14 +282,13 @@ class Monitor {
 
   /// Returns the verdict about two tracks at one level, with its forecast. Errors: unknown_body; out_of_range
   /// for the same track twice, a level that the pair does not have, or a pair outside the watched shards.
-  /// Cost: that of one recheck of the pair; O(near pairs) where the latest reports alone leave open what was
-  /// certified before.
+  /// Cost: that of one recheck of the pair.
   Result<PairAnswer> answer(TrackId first, TrackId second, std::uint32_t level = 0) const;
   /// Returns the pairs that are not certainly apart, in the order of their ids and levels.
   std::vector<OpenPair> open_pairs() const;
   /// Returns the pairs that are predicted to come within a separation, in the order of their ids and levels.
   std::vector<PredictedPair> predicted_pairs() const;
-  /// Returns the number of pairs that are not certainly apart or were not at some time in the current window.
+  /// Returns the number of pairs that are not certainly apart.
   /// Each of them takes about 150 bytes, in addition to the memory of the tracks. Reports count from the next
   /// advance() on. Cost: O(1).
   std::size_t open_pair_count() const;
@@ -297,8 +296,8 @@ class Monitor {
   /// first, and the lower id first among equals. Cost: O(tracks log tracks + open pairs).
   std::vector<TrackId> crowd(std::size_t pairs) const;
   /// Returns the reports that are needed by `until` so that no verdict turns undecided before, in the order
-  /// of their times, each track once. Pairs are known only up to the end of the current window. Cost: O(near
-  /// pairs).
+  /// of their times, each track once. Pairs are known only as long as both tracks stay in their regions.
+  /// Cost: O(near pairs).
   std::vector<ReportRequest> needed(double until) const;
 
   /// Returns a snapshot of the whole monitor; a monitor that is restored from it continues identically. Cost:
