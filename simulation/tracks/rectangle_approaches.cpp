@@ -140,8 +140,8 @@ std::vector<DistanceMinimum> minima_of(const RectanglePair& pair, const Approach
   std::vector<DistanceMinimum> minima;
   for (std::size_t k = 0, next = 0; k < looks.size(); k = next) {
     // Of a distance that stays the same the first look counts.
-    const double rounding = rounding_of(looks[k]);
-    const auto is_same = [&](const Look& look) { return std::abs(look.gap - looks[k].gap) <= rounding; };
+    const double margin = rounding_of(looks[k]);
+    const auto is_same = [&](const Look& look) { return std::abs(look.gap - looks[k].gap) <= margin; };
     for (next = k + 1; next < looks.size() && is_same(looks[next]);) ++next;
     const bool is_first = k == 0, is_last = next == looks.size();
     if ((!is_first && looks[k - 1].gap < looks[k].gap) || (!is_last && looks[next].gap < looks[k].gap))
