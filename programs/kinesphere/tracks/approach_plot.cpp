@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "simulation/tracks/rectangle_approaches.hpp"
+#include "tracks/track_scene.hpp"
 #include "tracks/xml_text.hpp"
 
 namespace kinesphere::program {
