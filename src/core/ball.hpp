@@ -37,9 +37,10 @@ struct alignas(64) Ball {
   static constexpr std::uint8_t passive = 2;      ///< it never moves, and has no list: others look out for it
   static constexpr std::uint8_t linked = 4;       ///< it touches or senses something
   static constexpr std::uint8_t at_wall = 8;      ///< `own` is about a wall
-  static constexpr std::uint8_t arriving = 16;    ///< it has no safe region and no neighbours yet
-  static constexpr std::uint8_t present = 32;     ///< the record is that of a ball
-  static constexpr std::uint8_t crowded = 64;     ///< it may have been in touch with neighbours of late
+  /// It has no neighbours yet, and its safe region is a point, if it has one.
+  static constexpr std::uint8_t arriving = 16;
+  static constexpr std::uint8_t present = 32;  ///< the record is that of a ball
+  static constexpr std::uint8_t crowded = 64;  ///< it may have been in touch with neighbours of late
   /// It touches others just where its bound does, has no sensor, and does not sleep.
   static constexpr std::uint8_t plain = 128;
 

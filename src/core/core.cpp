@@ -57,6 +57,11 @@ void Core::enter(std::uint32_t number, const Bound& bound, bool is_passive, bool
   ++present_;
 }
 
+void Core::show(std::uint32_t number) {
+  place_region(number, 0.0);
+  cells_.enter(balls_, number, reach(balls_[number]));
+}
+
 void Core::leave(std::uint32_t number) {
   Ball& ball = balls_[number];
   forget_neighbours(number);

@@ -64,6 +64,8 @@ class Core {
   /// Enters a ball with this bound, the radius of which includes the distance at which it senses others. A
   /// passive one never moves. It has to be told as changed before anything else.
   void enter(std::uint32_t number, const Bound& bound, bool is_passive, bool meets_walls);
+  /// Lets find() find a ball that has entered from now on, before it is told as changed.
+  void show(std::uint32_t number);
   void leave(std::uint32_t number);
   /// The ball has reported: its bound begins anew, within what was known.
   void report(std::uint32_t number, const State& state) { balls_.set_state(number, state); }

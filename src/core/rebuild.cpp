@@ -37,7 +37,7 @@ bool Core::rebuild(double time) {
     Ball& ball = balls_[number];
     if (!ball.is_present()) continue;
     ++present_;
-    if (!ball.is(Ball::arriving)) cells_.enter(balls_, number, saved_.reaches[number]);
+    if (saved_.reaches[number] > 0.0F) cells_.enter(balls_, number, saved_.reaches[number]);
     if (ball.is(Ball::passive)) continue;
     ball.list = lists_.add();
     lists_.assign(ball.list, saved_.lists[number]);
@@ -57,7 +57,8 @@ bool Core::is_valid(std::uint32_t number, std::span<const std::vector<std::uint3
   if (!ball.is_present()) return neighbours.empty();
   if (changes_[number] > last_change_ || (ball.is(Ball::passive) && changes_[number] != 0)) return false;
   const float reach = saved_.reaches[number];
-  if (ball.is(Ball::arriving)) return reach == 0.0F && neighbours.empty() && ball.about == none;
+  if (ball.is(Ball::arriving) && (!neighbours.empty() || ball.about != none)) return false;
+  if (ball.is(Ball::arriving) && reach == 0.0F) return true;
   if (!(reach > 0.0F && reach < 0x1p62F)) return false;
   if (ball.is(Ball::passive) && !neighbours.empty()) return false;
   const bool waits = ball.about != none && ball.about != number;

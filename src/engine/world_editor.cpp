@@ -91,7 +91,7 @@ void World::WorldEditor::register_anew(std::uint32_t number) {
 void World::WorldEditor::insert_in_core(std::uint32_t number) {
   if (state_.core->contains(number)) state_.core->leave(number);
   main_.invalidate(number);
-  if (!bodies().definition().allow_overlap) main_.enter_core(number);
+  if (!bodies().definition().allow_overlap) main_.show_in_core(number);
 }
 
 void World::WorldEditor::use_windows() {

@@ -191,6 +191,11 @@ class alignas(128) EventProcessor final : public core::Host {
 
   /// Enters a body that is known by the core from now on, but has no neighbours before it is recertified.
   void enter_core(std::uint32_t number);
+  /// The same of a body that others have to find at once.
+  void show_in_core(std::uint32_t number) {
+    enter_core(number);
+    core().show(number);
+  }
   /// Makes anew what a snapshot does not contain of a core. Returns false if no core could have been so.
   bool rebuild_core();
   bool uses_core() const { return state_->core.has_value(); }
