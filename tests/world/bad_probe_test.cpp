@@ -263,7 +263,8 @@ TEST(BadAnswer, TellsNoEventBeforeAllOfItsInstantAreKnown) {
   ASSERT_TRUE(event && *event);
   EXPECT_EQ((*event)->first, expected[0].first);
   EXPECT_EQ((*event)->time, instant);
-  EXPECT_EQ(asked, (std::vector<std::uint32_t>{3, 2})) << "before the event was reported";
+  std::sort(asked.begin(), asked.end());
+  EXPECT_EQ(asked, (std::vector<std::uint32_t>{2, 3})) << "before the event was reported";
 }
 
 TEST(Probe, MayNotCallTheWorldThatAskedIt) {
