@@ -1,10 +1,9 @@
 // The first safe regions of balls that arrive.
 #include <algorithm>
-#include <cmath>
 
 #include "core/core.hpp"
+#include "core/even_spacing.hpp"
 #include "number/infinity.hpp"
-#include "number/roots.hpp"
 
 namespace kinesphere::core {
 namespace {
@@ -111,12 +110,7 @@ double Core::first_radius_of(std::span<const std::uint32_t> numbers) const {
   const Box extent = extent_of(numbers);
   double edges[3] = {extent.upper.x - extent.lower.x, extent.upper.y - extent.lower.y,
                      extent.upper.z - extent.lower.z};
-  std::sort(std::begin(edges), std::end(edges));
-  const double volume = edges[0] * edges[1] * edges[2];
-  double distance = volume > 0.0 ? cube_root(volume / count) : 0.0;
-  if (!(edges[0] > distance)) distance = std::sqrt(edges[1] * edges[2] / count);
-  if (!(edges[1] > distance)) distance = edges[2] / count;
-  return tolerance_ + 0.35 * distance;
+  return tolerance_ + 0.35 * even_spacing(edges, count);
 }
 
 /// Returns the box around the reported centres of these balls.

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
+#include "core/even_spacing.hpp"
 #include "core/region_cells.hpp"
 #include "number/infinity.hpp"
 #include "number/roots.hpp"
@@ -22,16 +22,6 @@ constexpr std::size_t chains_of_small_worlds = 8192;
 constexpr std::size_t most_chains_of(std::size_t regions) { return 2 * regions + 512; }
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
-
-/// Returns the width of cells of which each has `part` of all that is spread evenly over a box, or over less
-/// dimensions if it is flat.
-double even_width(double (&edges)[3], double part) {
-  std::sort(std::begin(edges), std::end(edges));
-  const double cube = cube_root(edges[0] * edges[1] * edges[2] * part);
-  if (edges[0] > cube) return cube;
-  const double square = std::sqrt(edges[1] * edges[2] * part);
-  return edges[1] > square ? square : edges[2] * part;
-}
 
 }  // namespace
 
@@ -91,10 +81,7 @@ double RegionCells::wanted_width(std::size_t number, double narrowest,
 void RegionCells::rebuild(Balls& balls) {
   entered_ = 0;
   if (regions_ == 0) return;
-  if (!levels_suit()) {
-    choose_levels();
-    insert_all(balls);
-  }
+  if (!levels_suit()) return sort(balls);
   refine(balls);
 }
 
@@ -151,7 +138,7 @@ void RegionCells::choose_levels() {
     double edges[3], width = 2.0 * static_cast<double>(level.top);
     for (std::size_t axis = 0; axis < 3; ++axis)
       edges[axis] = double{extents[number].upper[axis]} - double{extents[number].lower[axis]};
-    if (level.regions > 0) width = even_width(edges, wanted_in_cell / level.regions);
+    if (level.regions > 0) width = even_spacing(edges, level.regions / wanted_in_cell);
     const double most = std::max(widest * static_cast<double>(level.largest_reach), 0.5 * double{median_});
     set_width(level, level.regions > 0 ? std::clamp(width, 0.5 * double{median_}, most) : width);
   }
