@@ -9,16 +9,13 @@
 namespace kinesphere {
 
 void RankSource::states(std::span<const BodyId> ids, double time, std::span<State> states) {
-  for (std::size_t k = 0; k < ids.size(); ++k)
-    states[k] = motion_.state(directory_[ids[k].world].in_motion, time);
+  for (std::size_t k = 0; k < ids.size(); ++k) states[k] = motion_.state(in_motion_[ids[k].world], time);
 }
 
-MotionOrigin RankSource::origin(BodyId body) const {
-  return motion_.origin(directory_[body.world].in_motion);
-}
+MotionOrigin RankSource::origin(BodyId body) const { return motion_.origin(in_motion_[body.world]); }
 
 void RankSource::set_origin(BodyId body, const MotionOrigin& origin) {
-  motion_.set_origin(directory_[body.world].in_motion, origin).value();
+  motion_.set_origin(in_motion_[body.world], origin).value();
 }
 
 Result<Response> RankResponder::respond(const Event& event) {

@@ -3,28 +3,29 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "bodies/bodies.hpp"
-#include "distributed/body_directory.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/run.hpp"
 #include "processor/response_handler.hpp"
 
 namespace kinesphere {
 
-/// Motion source for own bodies and ghosts, backed by the rank's motion.
+/// Motion source for the bodies of a part of the world, backed by the rank's motion.
 class RankSource final : public MotionSource {
  public:
-  RankSource(Motion& motion, const BodyDirectory& directory) : motion_(motion), directory_(directory) {}
+  /// `in_motion`: number in the motion, by number.
+  RankSource(Motion& motion, const std::vector<std::uint32_t>& in_motion)
+      : motion_(motion), in_motion_(in_motion) {}
 
-  bool contains(std::uint32_t number_in_motion) const { return motion_.contains(number_in_motion); }
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override;
   MotionOrigin origin(BodyId body) const override;
   void set_origin(BodyId body, const MotionOrigin& origin) override;
 
  private:
   Motion& motion_;
-  const BodyDirectory& directory_;
+  const std::vector<std::uint32_t>& in_motion_;
 };
 
 /// Calls `respond` and validates the response. Errors: unknown_body for a velocity of a body that is not part

@@ -12,7 +12,7 @@ namespace kinesphere {
 namespace {
 
 constexpr Envelope envelope{{'K', 'i', 'n', 'e', 'd', 'w', '\r', '\n'},
-                            9,
+                            10,
                             "part of a distributed world",
                             "restore",
                             "parts",
@@ -37,8 +37,9 @@ Result<Checkpoint> Checkpoint::read(std::span<const std::byte> bytes) {
   if (reader.failed() || reader.remaining() != 0)
     return refusal("must be parts of a world, but one has the wrong format");
   if (!check_world(checkpoint.definition) || checkpoint.part >= checkpoint.identity.parts ||
-      !std::isfinite(checkpoint.identity.time) || std::isnan(checkpoint.epoch_end) ||
-      !checkpoint.spot_checks.is_valid(checkpoint.identity.time))
+      !std::isfinite(checkpoint.identity.time) ||
+      !checkpoint.facts.spot_checks.is_valid(checkpoint.identity.time) ||
+      !(checkpoint.facts.first_radius >= 0.0))
     return refusal("must be consistent, but one contradicts itself");
   return checkpoint;
 }
@@ -58,8 +59,7 @@ Result<void> gather_common(Communicator& communicator, std::span<const Checkpoin
   if (!here.empty()) {
     writer(here.size());
     for (const Checkpoint& checkpoint : here) writer(checkpoint.identity, checkpoint.part);
-    writer(here[0].definition, here[0].window_policy, here[0].sensors, here[0].epoch_end,
-           here[0].spot_checks);
+    writer(here[0].definition, here[0].sensors, here[0].facts);
   }
   std::vector<std::uint64_t> found;
   bool of_one_world = true;
@@ -74,7 +74,7 @@ Result<void> gather_common(Communicator& communicator, std::span<const Checkpoin
       of_one_world = of_one_world && (found.size() == 1 || identity == common.identity);
       common.identity = identity;
     }
-    reader(common.definition, common.window_policy, common.sensors, common.epoch_end, common.spot_checks);
+    reader(common.definition, common.sensors, common.facts);
   }
   std::sort(found.begin(), found.end());
   const bool once = std::adjacent_find(found.begin(), found.end()) == found.end();
@@ -86,13 +86,6 @@ Result<void> gather_common(Communicator& communicator, std::span<const Checkpoin
                    std::to_string(part) + " is missing");
   }
   return {};
-}
-
-Result<void> read_window_policy(std::span<const std::byte> bytes, WindowPolicy& window_policy) {
-  ByteReader reader(bytes);
-  reader(window_policy);
-  if (!reader.failed() && window_policy.is_valid()) return {};
-  return refusal("must hold a consistent window policy, but do not");
 }
 
 }  // namespace kinesphere

@@ -1,65 +1,80 @@
-// Distribution assigns bodies to ranks: it partitions space, migrates bodies to the rank whose region
-// contains them, and sends ghosts to all ranks that need them.
+// Distribution assigns bodies to ranks: it divides space, sends each body to the rank whose region of space
+// contains it, and ghosts of bodies to all ranks that need them.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "distributed/body_record.hpp"
+#include "distributed/communicator.hpp"
+#include "distributed/error_consensus.hpp"
 #include "distributed/halo_region.hpp"
-#include "distributed/migration.hpp"
+#include "distributed/part.hpp"
 #include "distributed/partition.hpp"
+#include "kinesphere/motion/motion.hpp"
 
 namespace kinesphere {
 
-/// All functions except drop_ghosts() and partitions() are collective. Errors: those of
-/// Migration::exchange().
+/// A slab of time that all ranks simulate before they agree.
+struct Slab {
+  double begin = 0.0;
+  double stop = 0.0;      ///< what is due then belongs to the next slab
+  bool is_least = false;  ///< it contains one instant
+};
+
+/// Functions that return a Result are collective. Errors, equal on all ranks: those of Motion::write_body,
+/// Motion::read_body and Motion::remove.
 class Distribution {
  public:
-  Distribution(Communicator& communicator, ErrorConsensus& consensus, RankState& rank_state,
-               Migration& migration, HaloRegions& known);
+  Distribution(Communicator& communicator, ErrorConsensus& consensus, const WorldDefinition& definition,
+               Motion& motion)
+      : communicator_(communicator),
+        consensus_(consensus),
+        space_(definition),
+        primary_(definition.box.value_or(Box{})),
+        motion_(motion),
+        partition_(communicator.ranks()),
+        known_(communicator.ranks(), communicator.rank(), space_) {}
 
-  // Windows start in the following steps, in this order. `starters` are the bodies whose windows start now:
-  // at first own bodies only; in the end the remaining own bodies, bodies that have migrated here, and
-  // ghosts.
-  /// Ends the windows of these bodies, which end on all ranks. Drops ghosts among them and removes these from
-  /// `ending`; clears the holders of own bodies, as the holders have dropped their ghosts.
-  void drop_ghosts(std::vector<std::uint32_t>& ending);
-  /// Repartitions space by the work of bodies since the last partition, if the imbalance exceeds its limit or
-  /// space has not been partitioned yet.
-  void divide_space(std::span<const BroadPhase::Starter> starters);
-  /// Migrates starters to the ranks whose region contains them. Appends arriving starters to `starters`.
-  Result<void> migrate(std::vector<BroadPhase::Starter>& starters);
-  /// Extends this rank's halo region by the swept boxes of the starters, and exchanges the additions with all
-  /// ranks. Sends own bodies that may enter the halo region of another rank there as ghosts. Appends arriving
-  /// ghosts that start to `starters`. `anew`: rebuilds the halo region from this rank's region of space and
-  /// the swept boxes of all its own bodies.
-  Result<void> update_ghosts(std::vector<BroadPhase::Starter>& starters, bool anew);
+  /// Divides space anew by the work of bodies if it was never divided, or if the imbalance exceeds its limit.
+  /// Sends each body to the rank whose region contains it. `own`: the bodies of this rank, which are by name
+  /// then. Those that come from a checkpoint have their motions in their records, and get a number in this
+  /// rank's.
+  Result<void> assign(std::vector<BodyRecord>& own, double time);
+  /// Sends ghosts to all ranks that may need them during the slab. Returns those that arrive, by name, whose
+  /// motions have been read. `margin`: how far around their own bodies ranks have ghosts (length).
+  Result<std::vector<BodyRecord>> send_ghosts(std::span<const BodyRecord> own, const Slab& slab,
+                                              double margin);
+  /// Removes the motions of ghosts.
+  void drop(std::span<const BodyRecord> ghosts);
+  /// Collective. Returns how many ranks have a ghost that its owner disagrees with, or may lack one: in the
+  /// part that they have simulated since send_ghosts().
+  std::uint64_t count_disagreeing(const Part& part);
 
-  /// Partitions space for the bodies of a checkpoint and sends each body to its rank. Does not send ghosts;
-  /// spread() does.
-  Result<void> distribute(std::vector<BodyMessage> messages);
-
-  /// Number of times that space has been partitioned.
-  std::uint64_t partitions() const { return partitions_; }
+  /// Number of times that space has been divided.
+  std::uint64_t divisions() const { return divisions_; }
 
  private:
-  BodyMessage pack_to_start(const BroadPhase::Starter& starter) const;
-  Result<void> exchange(SendBuffers& buffers, std::vector<BroadPhase::Starter>& starters);
-  Box way_of(const BroadPhase::Starter& starter) const;
-  Box core_of(std::span<const Box> ways, std::span<const std::uint32_t> others);
-  std::vector<std::vector<Box>> gather_boxes(std::span<const Box> boxes);
-  void send_starters(std::span<const BroadPhase::Starter> starters, std::span<const Box> ways,
-                     SendBuffers& buffers);
-  void send_ghosts(int to, std::span<const std::uint32_t> numbers, SendBuffers& buffers);
+  Vec3 place_of(const BodyRecord& body, double time) const;
+  Box way_of(const BodyRecord& body, const Slab& slab) const;
+  void divide(std::span<BodyRecord> own, double time);
+  Box halo_of(int rank, double margin) const;
+  void know(std::span<const Box> ways, double margin);
+  Result<std::vector<BodyRecord>> receive(std::vector<Communicator::Bytes> bytes);
+  bool lacks_ghosts(const Part& part) const;
 
   Communicator& communicator_;
   ErrorConsensus& consensus_;
-  RankState& rank_;
-  Migration& migration_;
-  HaloRegions& known_;
+  Space space_;
+  Box primary_;  ///< in which periodic space repeats
+  Motion& motion_;
   Partition partition_;
-  std::uint64_t partitions_ = 0;
+  HaloRegions known_;
+  std::uint64_t divisions_ = 0;
+  /// Ranks to which the bodies of this rank were sent as ghosts, by name.
+  std::vector<std::pair<std::uint32_t, int>> sent_;
 };
 
 }  // namespace kinesphere

@@ -1,131 +1,53 @@
 #include "distributed/rank_engine.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
+#include <numeric>
 #include <string>
 #include <utility>
 
-#include "bodies/shaped_body.hpp"
 #include "bodies/validation.hpp"
-#include "distributed/batch_exchange.hpp"
+#include "contact/contact_predictor.hpp"
 #include "distributed/guarded.hpp"
 #include "number/infinity.hpp"
-#include "processor/overlaps.hpp"
+#include "number/scope_guard.hpp"
 
 namespace kinesphere {
+namespace {
+
+/// Ranks have ghosts so far around their own bodies, in widths of safe regions. More of them allow longer
+/// slabs.
+constexpr double margin_in_widths = 2.0;
+/// A slab that failed is tried again with this part of its duration, and with so many times its margin.
+constexpr double shorter = 0.5;
+constexpr double wider = 1.3;
+/// After a slab that did not fail, the next one is so much longer.
+constexpr double longer = 1.2;
+/// A slab ends no later than after about so many events of a rank, which have to be kept until then.
+constexpr std::uint64_t most_events = 1 << 16;
+
+}  // namespace
 
 DistributedWorld::RankEngine::RankEngine(const WorldDefinition& definition, Motion& motion)
-    : consensus_(communicator_),
-      rank_(definition, communicator_.rank()),
-      source_(motion, rank_.directory),
-      migration_(motion, rank_),
-      known_(communicator_.ranks(), communicator_.rank(), rank_.bodies().space()),
-      distribution_(communicator_, consensus_, rank_, migration_, known_),
-      starts_(communicator_, consensus_, rank_, distribution_) {}
-
-/// Checks what bodies of all kinds have in common.
-Result<void> DistributedWorld::RankEngine::check_addition(std::uint32_t name, const BodyDefinition& body,
-                                                          std::uint32_t number_in_motion,
-                                                          std::string_view call) const {
-  auto valid = check_reach(rank_.bodies().sensors.reach(body.sensor_class), body, no_body, "sensor_class",
-                           definition(), call);
-  if (!valid) return valid;
-  if (rank_.directory.find(name) || name == no_body.index)
-    return Error{ErrorCode::out_of_range,
-                 "index",
-                 {name, 0, 0},
-                 std::string(call) + ": index must be that of no other body, but is " + std::to_string(name)};
-  if (!source_.contains(number_in_motion))
-    return Error{ErrorCode::unknown_body,
-                 "number_in_motion",
-                 {name, 0, 0},
-                 std::string(call) + ": number_in_motion must be that of a body of the motion, but is " +
-                     std::to_string(number_in_motion)};
-  return {};
-}
-
-Result<void> DistributedWorld::RankEngine::add(std::uint32_t name, const BodyDefinition& body,
-                                               std::uint32_t number_in_motion) {
-  auto valid = consensus_.check("add");
-  if (valid) valid = check_body(body, definition(), "add");
-  if (valid) valid = check_addition(name, body, number_in_motion, "add");
-  if (valid) insert(name, body, number_in_motion);
-  return valid;
-}
-
-Result<void> DistributedWorld::RankEngine::add_moving_shape(std::uint32_t name, const MovingShape& added,
-                                                            std::uint32_t number_in_motion) {
-  constexpr std::string_view call = "add_moving_shape";
-  if (auto valid = consensus_.check(call); !valid) return valid;
-  const auto accepted = accepted_moving_shape(added, definition(), call);
-  if (!accepted) return accepted.error();
-  const BodyDefinition body = body_of(*accepted, definition());
-  auto valid = check_addition(name, body, number_in_motion, call);
-  if (!valid) return valid;
-  const std::uint32_t number = insert(name, body, number_in_motion);
-  rank_.bodies().give_shape(number, accepted->shape, true);
-  rank_.state.contacts.set_shape(number, false);
-  return {};
-}
-
-Result<void> DistributedWorld::RankEngine::add_rigid_body(std::uint32_t name, const RigidBody& added,
-                                                          std::uint32_t number_in_motion) {
-  constexpr std::string_view call = "add_rigid_body";
-  auto valid = consensus_.check(call);
-  if (valid) valid = check_new_rigid_body(added, definition(), call);
-  if (!valid) return valid;
-  if (added.angular_acceleration_limit != 0.0)
-    return Error{ErrorCode::unsupported, "angular_acceleration_limit", no_body,
-                 std::string(call) + ": angular_acceleration_limit must be 0 in a distributed world, which " +
-                     "has no rotation probe, but is " + text_of(added.angular_acceleration_limit)};
-  const BodyDefinition body = body_of(added);
-  valid = check_addition(name, body, number_in_motion, call);
-  if (!valid) return valid;
-  const RigidRecord turning = record_of(added, time());
-  const Bound bound = bound_now(body, time());
-  const Overlaps overlaps(rank_.state, time());
-  if (const auto wall = overlaps.of_wall({bound, false, nullptr, body.radius, &turning}, body.filter))
-    return wall_error(call, no_body, *wall);
-  const std::uint32_t number = insert(name, body, number_in_motion);
-  rank_.bodies().make_rigid(number, turning);
-  rank_.state.contacts.set_largest_acceleration(number, rank_.bodies().largest_acceleration(number));
-  return {};
-}
-
-std::uint32_t DistributedWorld::RankEngine::insert(std::uint32_t name, const BodyDefinition& body,
-                                                   std::uint32_t number_in_motion) {
-  Bodies& bodies = rank_.bodies();
-  const std::uint32_t number = bodies.add_named(body, time(), name);
-  rank_.directory.add(name, number, communicator_.rank());
-  rank_.directory[number].in_motion = number_in_motion;
-  names_.add(name);
-  bodies[number].bound = bound_now(body, time());
-  bodies[number].relocated = true;
-  rank_.main.invalidate(number);
-  rank_.state.contacts.add(number, bodies.largest_acceleration(number));
-  return number;
-}
-
-Result<void> DistributedWorld::RankEngine::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
-  auto valid = check_sensor(sensor, definition());
-  if (valid && !rank_.directory.empty())
-    valid = Error{ErrorCode::unsupported, "sensor_class", no_body,
-                  "set_sensor: a distributed world must have no bodies yet, but has some"};
-  auto agreed = consensus_.first_error(valid);
-  if (agreed) rank_.bodies().sensors.set(sensor_class, sensor);
-  return agreed;
-}
+    : definition_(definition),
+      motion_(motion),
+      consensus_(communicator_),
+      distribution_(communicator_, consensus_, definition_, motion),
+      time_(definition.start_time),
+      arriving_(std::make_unique<WorldState>(definition)) {}
 
 RankFigures DistributedWorld::RankEngine::figures() const {
   const Communicator::Traffic& traffic = communicator_.traffic();
   return {.bodies = own_bodies(),
-          .ghosts = rank_.directory.ghosts().size(),
+          .ghosts = ghosts_,
           .bytes = traffic.bytes,
           .messages = traffic.messages,
           .collectives = traffic.collectives,
-          .batches = batches_,
-          .rounds = rounds_,
-          .partitions = distribution_.partitions(),
+          .batches = slabs_,
+          .rounds = tries_,
+          .partitions = distribution_.divisions(),
           .seconds_in_mpi = traffic.seconds};
 }
 
@@ -144,82 +66,151 @@ Result<void> DistributedWorld::RankEngine::check_run(double until, const PoolLea
 
 Result<void> DistributedWorld::RankEngine::run(double until, const ResponseFn* respond,
                                                const OrderedEventFn& sink, Workers* workers) {
-  PoolLease lease(workers);
+  const PoolLease lease(workers);
   if (auto agreed = agree(check_run(until, lease)); !agreed) return agreed;
-  const Probe probe = [this](std::span<const BodyId> ids, double time, std::span<State> states) {
-    source_.states(ids, time, states);
-  };
-  rank_.main.reports().ask(probe, "run");
-  std::optional<RankResponder> handler;
-  if (respond != nullptr) handler.emplace(*respond, source_, rank_.bodies());
-  SpeculativeRunner runner(rank_.state, rank_.main, lease, probe, handler ? &*handler : nullptr);
-  runner.require_speculation();
-  return go(until, sink, lease, runner);
+  return go(until, respond, sink);
 }
 
-Result<void> DistributedWorld::RankEngine::go(double until, const OrderedEventFn& sink, PoolLease& lease,
-                                              SpeculativeRunner& runner) {
-  if (auto recertified = start_arrivals(lease, runner); !recertified) return recertified;
-  for (;;) {
-    if (rank_.main.epoch_end() <= time()) {
-      if (auto started = starts_.start(lease, false, {}); !started) return started;
-    }
-    if (rank_.state.spot_checks.next() <= time()) {
-      if (auto checked = spot_check(lease); !checked) return checked;
-    }
-    const auto stop = run_batch(until, infinity, runner);
-    if (!stop) return stop.error();
+Result<void> DistributedWorld::RankEngine::go(double until, const ResponseFn* respond,
+                                              const OrderedEventFn& sink) {
+  if (auto started = start_arrivals(); !started) return started;
+  for (bool is_over = false; !is_over;) {
+    const auto done = run_slab(until, respond);
+    if (!done) return done.error();
+    is_over = *done;
     deliver(sink);
-    if (*stop > until) break;
   }
   return consensus_.agree_on_noted();
 }
 
-/// Checks exact bodies, as World::Engine::end_epoch() does.
-Result<void> DistributedWorld::RankEngine::spot_check(PoolLease& lease) {
-  const std::uint64_t& own_probes = rank_.main.work().counters.probes;
-  const std::uint64_t probes = communicator_.sum(own_probes);
-  const auto here = guarded([&] { return rank_.main.spot_check_due(rank_.own_bodies(), probes, lease); });
-  if (auto agreed = agree(here ? Result<void>() : here.error()); !agreed) return agreed;
-  std::array<std::uint64_t, 3> sums{here->any, here->moving, own_probes};
+/// Returns when something happens to a body of any rank next, as far as its records tell.
+double DistributedWorld::RankEngine::first_due() {
+  double first = infinity;
+  for (const BodyRecord& record : own_)
+    first = std::min(first, record.body.dirty ? time_ : std::max(record.core.ball.due, time_));
+  return communicator_.least(first);
+}
+
+/// Returns how far around their own bodies ranks have ghosts (length).
+double DistributedWorld::RankEngine::usual_margin() {
+  std::array<double, 2> sums{0.0, static_cast<double>(own_.size())};
+  for (const BodyRecord& record : own_)
+    sums[0] += record.is_arriving ? record.body.bound.radius + facts_.first_radius : record.region_reach;
   communicator_.sum(sums);
-  const SpotChecks::Census census{sums[0] > 0, sums[1], communicator_.least(here->least_time)};
-  rank_.state.spot_checks.note_check(rank_.state.window_policy.main_length(), time(), census, sums[2]);
-  return {};
+  return sums[1] > 0.0 ? margin_in_widths * 2.0 * sums[0] / sums[1] : 0.0;
 }
 
-/// Recertifies and registers added bodies without advancing time.
-Result<void> DistributedWorld::RankEngine::start_arrivals(PoolLease& lease, SpeculativeRunner& runner) {
-  const Arrivals arrivals = starts_.count_arrivals();
-  if (arrivals.everywhere == 0) return {};
-  if (arrivals.has_exact) rank_.state.spot_checks.note_arrival(time());
-  if (auto unique = agree(names_.check(communicator_)); !unique) return unique;
-  if (auto started = starts_.start_with(arrivals, lease); !started) return started;
-  if (auto recertified = run_batch(time(), time(), runner); !recertified) return recertified.error();
-  starts_.begin_epoch_of_arrivals();
-  return {};
-}
-
-/// Runs one batch from now to `until`, to the batch end chosen by the sizer, or to `latest`, whichever is
-/// first. Returns the end of the batch.
-Result<double> DistributedWorld::RankEngine::run_batch(double until, double latest,
-                                                       SpeculativeRunner& runner) {
-  const double stop = communicator_.least(runner.take_due(until, latest));
-  runner.begin_batch(stop);
-  ++batches_;
-  BatchExchange exchange(communicator_, consensus_, rank_, migration_, known_, runner);
-  auto done = exchange.run();
-  rounds_ += exchange.rounds();
-  if (done) {
-    for (const OrderedEvent& event : exchange.finish()) {
-      hash_.add(event.event);
-      events_.push_back(event);
-    }
-    done = exchange.renew_ghosts();
+/// Returns a time in which bodies move about as far as they are apart; infinity if they all stand still.
+double DistributedWorld::RankEngine::first_duration() {
+  std::array<double, 2> sums{};
+  for (const BodyRecord& record : own_) {
+    const Bound& bound = record.body.bound;
+    const double way = std::max(facts_.first_radius, bound.radius);
+    const double time =
+        std::min(way / (norm(bound.velocity) + bound.growth_speed),
+                 std::sqrt(2.0 * way / (bound.acceleration_limit + norm(bound.planned_acceleration))));
+    if (!(time < infinity)) continue;
+    sums[0] += 1.0 / time;
+    sums[1] += 1.0;
   }
-  runner.end_batch();
-  if (!done) return done.error();
-  return stop;
+  communicator_.sum(sums);
+  return sums[0] > 0.0 ? 2.0 * sums[1] / sums[0] : infinity;
+}
+
+/// Advances by a slab. Returns true if this has reached `until`. Errors: those of all ranks, equal on all.
+Result<bool> DistributedWorld::RankEngine::run_slab(double until, const ResponseFn* respond) {
+  if (auto assigned = distribution_.assign(own_, time_); !assigned) return assigned.error();
+  if (!(duration_ > 0.0)) duration_ = first_duration();
+  const double first = first_due();
+  double duration = duration_, margin = usual_margin(), latest = infinity;
+  for (;;) {
+    ++tries_;
+    const double least = just_after(first);
+    Slab slab{.begin = time_, .stop = std::clamp(first + duration, least, std::max(latest, least))};
+    if (facts_.spot_checks.next() > time_) slab.stop = std::min(slab.stop, facts_.spot_checks.next());
+    slab.is_least = !(slab.stop > least);
+    const auto outcome = try_slab(slab, until, margin, respond);
+    if (!outcome) return outcome.error();
+    if (outcome->is_done) {
+      ++slabs_;
+      duration_ = std::max(duration, 0.125 * duration_);
+      if (duration == duration_ && outcome->events <= most_events) duration_ *= longer;
+      if (outcome->events > most_events) duration_ *= shorter;
+      return !(time_ < until) && outcome->stop > until;
+    }
+    latest = std::min(latest, outcome->failed_at);
+    duration *= shorter;
+    margin *= wider;
+  }
+}
+
+/// Simulates a slab. If a rank fails, or some do not agree, all go back to the begin of the slab. Errors: of
+/// a slab that cannot be shorter, and those of exchanges.
+Result<DistributedWorld::RankEngine::Outcome> DistributedWorld::RankEngine::try_slab(
+    const Slab& slab, double until, double margin, const ResponseFn* respond) {
+  auto ghosts = distribution_.send_ghosts(own_, slab, margin);
+  if (!ghosts) return ghosts.error();
+  ghosts_ = ghosts->size();
+  std::vector<const BodyRecord*> records;
+  for (const auto* const some : {&std::as_const(own_), &std::as_const(*ghosts)})
+    for (const BodyRecord& record : *some) records.push_back(&record);
+  std::inplace_merge(records.begin(), records.begin() + static_cast<std::ptrdiff_t>(own_.size()),
+                     records.end(),
+                     [](const BodyRecord* a, const BodyRecord* b) { return a->name < b->name; });
+  Part part(definition_, sensors_, facts_, time_, communicator_.rank(), records, motion_);
+  const ScopeGuard drop([&] { distribution_.drop(*ghosts); });
+  ScopeGuard go_back([&] { part.undo(); });
+  std::vector<OrderedEvent> events;
+  auto done = guarded([&] { return part.begin(); });
+  std::array<std::uint64_t, 1> failures{done ? 0u : 1u};
+  communicator_.sum(failures);
+  if (failures[0] == 0 && facts_.spot_checks.next() <= time_)
+    if (auto checked = spot_check(part); !checked) return checked.error();
+  const double stop = std::min(slab.stop, part.state().spot_checks.next());
+  if (failures[0] == 0) done = guarded([&] { return part.run(stop, until, respond, events); });
+  const bool grows = part.state().core->balls().any_grows();
+  std::array<std::uint64_t, 3> sums{done ? 0u : 1u, grows && !facts_.grows ? 1u : 0u, events.size()};
+  communicator_.sum(sums);
+  if (sums[0] > 0) {
+    if (slab.is_least) return agree(done).error();
+    return Outcome{.failed_at = communicator_.least(done ? infinity : part.time())};
+  }
+  // Whether any bound grows decides how all are compared.
+  if ((sums[1] > 0 && !slab.is_least) || distribution_.count_disagreeing(part) > 0) return Outcome{};
+  go_back.dismiss();
+  facts_.grows = facts_.grows || sums[1] > 0;
+  commit(part, events);
+  return Outcome{.is_done = true, .stop = stop, .events = sums[2]};
+}
+
+/// Checks exact bodies, as World::Engine::end_epoch() does.
+Result<void> DistributedWorld::RankEngine::spot_check(Part& part) {
+  EventProcessor& main = part.main();
+  const auto own_probes = [&] { return counters_.probes + main.work().counters.probes; };
+  const std::uint64_t probes = communicator_.sum(own_probes());
+  std::vector<std::uint32_t> all(part.numbers());
+  std::iota(all.begin(), all.end(), 0u);
+  PoolLease alone;
+  const auto here = guarded([&] { return main.spot_check_due(all, probes, alone); });
+  if (auto agreed = agree(here ? Result<void>() : here.error()); !agreed) return agreed;
+  std::array<std::uint64_t, 3> sums{here->any, here->moving, own_probes()};
+  communicator_.sum(sums);
+  core::StayCounts stays = part.state().core->count_stays();
+  communicator_.sum(stays.counts());
+  const SpotChecks::Census census{sums[0] > 0, sums[1], communicator_.least(here->least_time)};
+  part.state().spot_checks.note_check(stays.median(), time_, census, sums[2]);
+  return {};
+}
+
+void DistributedWorld::RankEngine::commit(Part& part, std::vector<OrderedEvent>& events) {
+  part.update(own_);
+  counters_ += part.main().work().counters;
+  facts_.spot_checks = part.state().spot_checks;
+  time_ = part.time();
+  for (const OrderedEvent& event : events) {
+    hash_.add(event.event);
+    events_.push_back(event);
+  }
 }
 
 /// Passes pending events to the sink. An exception thrown by the sink ends the run on all ranks.

@@ -1,13 +1,12 @@
-// RankEngine is one rank's part of a distributed world: own bodies, ghosts of nearby bodies, and the exchange
-// between ranks that makes each execute its clusters as one world would.
+// RankEngine is one rank's part of a distributed world.
 //
-// Invariants on each rank whenever time advances:
-//   - The halo region contains the swept spheres of all own bodies.
-//   - The rank holds an exact ghost of each body whose swept sphere may enter the halo region, with all
-//     certificates and links between it and bodies that the rank holds.
-// So everything that can affect an own body before its window ends is known to its owner. A batch
-// (batch_exchange.hpp) ends when all ranks that own a body of a cluster have executed the cluster with an
-// equal set of members; each then has the results of one world (docs/distributed.md has the proof).
+// Between slabs of time it is a list of records of the bodies that it owns. For a slab, each rank makes a
+// part (part.hpp) of its own bodies and of ghosts, copies of those around them, and simulates it to the end
+// of the slab as a world of its own. Ghosts far out go wrong then, since what is beyond them is missing, and
+// what goes wrong spreads inwards. So in the end all ranks compare the courses of those ghosts that have been
+// neighbours of own bodies with what their owners have found. If they agree, and no body has come where a
+// rank did not know of it, each rank has what one world would have computed (docs/distributed.md has the
+// proof). Otherwise all go back, and try a shorter slab with more ghosts.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +17,14 @@
 #include <string_view>
 #include <vector>
 
-#include "distributed/answering.hpp"
 #include "distributed/communicator.hpp"
 #include "distributed/distribution.hpp"
 #include "distributed/error_consensus.hpp"
-#include "distributed/halo_region.hpp"
-#include "distributed/migration.hpp"
-#include "distributed/rank_state.hpp"
+#include "distributed/part.hpp"
 #include "distributed/unique_names.hpp"
-#include "distributed/window_starts.hpp"
 #include "kinesphere/distributed/distributed_world.hpp"
-#include "speculation/speculative_runner.hpp"
+#include "number/infinity.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace kinesphere {
 
@@ -39,15 +35,17 @@ class DistributedWorld::RankEngine {
   RankEngine(const WorldDefinition& definition, Motion& motion);
 
   Communicator& communicator() { return communicator_; }
-  const WorldDefinition& definition() const { return rank_.bodies().definition(); }
-  double time() const { return rank_.time(); }
+  const WorldDefinition& definition() const { return definition_; }
+  double time() const { return time_; }
   /// Collective. See ErrorConsensus::agree().
   Result<void> agree(const Result<void>& here) { return consensus_.agree(here); }
 
+  // arrivals.cpp
   Result<void> add(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion);
   Result<void> add_rigid_body(std::uint32_t name, const RigidBody& added, std::uint32_t number_in_motion);
   Result<void> add_moving_shape(std::uint32_t name, const MovingShape& added, std::uint32_t number_in_motion);
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
+
   Result<void> run(double until, const ResponseFn* respond, const OrderedEventFn& sink, Workers* workers);
 
   // rank_engine_checkpoint.cpp
@@ -55,37 +53,60 @@ class DistributedWorld::RankEngine {
   static Result<std::unique_ptr<RankEngine>> restore(std::span<const std::vector<std::byte>> parts,
                                                      Motion& motion);
 
-  std::uint64_t own_bodies() const { return rank_.directory.own_count(); }
-  const Counters& counters() const { return rank_.main.work().counters; }
+  std::uint64_t own_bodies() const { return own_.size() + arriving_->bodies.numbers(); }
+  const Counters& counters() const { return counters_; }
   const EventHash& hash() const { return hash_; }
   RankFigures figures() const;
 
  private:
+  // arrivals.cpp
   Result<void> check_addition(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion,
                               std::string_view call) const;
-  /// Adds a body, which is a ball as yet. Returns its number.
   std::uint32_t insert(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion);
+  void take_arrivals();
+  Result<void> start_arrivals();
+  void measure(std::uint64_t bodies);
+  void choose_radii(std::span<BodyRecord* const> arrivals);
+
+  // rank_engine.cpp
   Result<void> check_run(double until, const PoolLease& lease) const;
-  Result<void> go(double until, const OrderedEventFn& sink, PoolLease& lease, SpeculativeRunner& runner);
-  Result<void> start_arrivals(PoolLease& lease, SpeculativeRunner& runner);
-  Result<void> spot_check(PoolLease& lease);
-  Result<double> run_batch(double until, double latest, SpeculativeRunner& runner);
+  Result<void> go(double until, const ResponseFn* respond, const OrderedEventFn& sink);
+  double first_due();
+  double usual_margin();
+  double first_duration();
+  Result<bool> run_slab(double until, const ResponseFn* respond);
+  struct Outcome {
+    bool is_done = false;
+    double stop = 0.0;            ///< what was due before has been done
+    std::uint64_t events = 0;     ///< of all ranks
+    double failed_at = infinity;  ///< when the first rank failed
+  };
+  Result<Outcome> try_slab(const Slab& slab, double until, double margin, const ResponseFn* respond);
+  Result<void> spot_check(Part& part);
+  void commit(Part& part, std::vector<OrderedEvent>& events);
   void deliver(const OrderedEventFn& sink);
   Result<void> resume(const Checkpoint& common, std::vector<Checkpoint>& parts);
 
+  WorldDefinition definition_;
+  Motion& motion_;
   Communicator communicator_;
   ErrorConsensus consensus_;
-  RankState rank_;
-  RankSource source_;
-  Migration migration_;
-  HaloRegions known_;
   Distribution distribution_;
-  WindowStarts starts_;
   UniqueNames names_;
+  SensorTable sensors_;
+  WorldFacts facts_;
+  double time_;
+  std::vector<BodyRecord> own_;  ///< by name
+  /// Bodies that have been added since the last run, and their numbers in the motion.
+  std::unique_ptr<WorldState> arriving_;
+  std::vector<std::uint32_t> arriving_in_motion_;
+  double duration_ = 0.0;            ///< of the next slab (time); 0 until one has been chosen
   std::deque<OrderedEvent> events_;  ///< events to be reported
   EventHash hash_;                   ///< hash of all committed events
-  std::uint64_t batches_ = 0;
-  std::uint64_t rounds_ = 0;
+  Counters counters_;
+  std::uint64_t ghosts_ = 0;  ///< of the last slab
+  std::uint64_t slabs_ = 0;
+  std::uint64_t tries_ = 0;
 };
 
 }  // namespace kinesphere

@@ -80,6 +80,19 @@ class Balls {
     }
     return {centre, velocity, plan, ball.radius + growth, speed, limit};
   }
+  Drift drift(std::uint32_t number) const { return drifts_.empty() ? Drift() : drifts_[number]; }
+  /// Adopts a ball of others, at the same time.
+  void adopt(std::uint32_t number, const Ball& ball, const Drift& drift) {
+    balls_[number] = ball;
+    balls_[number].list = balls_[number].slot = none;
+    if (drifts_.empty() && drift != Drift()) drifts_.resize(balls_.size());
+    if (!drifts_.empty()) drifts_[number] = drift;
+  }
+  /// Expects balls with bounds that grow, and that drift.
+  void expect(bool grows, bool drifts) {
+    grows_ = grows_ || grows;
+    if (drifts) drifts_.resize(balls_.size());
+  }
   Vec3 plan(std::uint32_t number) const {
     return drifts_.empty() ? Vec3{} : drifts_[number].planned_acceleration;
   }

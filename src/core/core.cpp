@@ -78,6 +78,7 @@ void Core::set_bound(std::uint32_t number, const Bound& bound) {
   const double larger = bound.radius - ball.radius;
   if (larger > 0.0) ball.region -= static_cast<float>((1.0 + 0x1p-20) * larger / unit_);
   balls_.set_bound(number, bound);
+  note_course(number);
 }
 
 void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
@@ -90,8 +91,8 @@ void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
     move_region(number, host);
   }
   for (const std::uint32_t number : settling_)
-    if (!balls_[number].is(Ball::passive)) note_change(number);
-  for (const std::uint32_t number : settling_) schedule(number, host);
+    if (!balls_[number].is(Ball::passive)) note_change(number, host);
+  for (const std::uint32_t number : settling_) schedule(number, true, host);
   if (balls_.size() <= 2 * queued_for_) return;
   queue_.refill(balls_.all(), balls_.time());
   queued_for_ = balls_.size();
@@ -119,7 +120,7 @@ Result<void> Core::handle(std::uint32_t number, Host& host) {
   if (other == none) return handle_own(number, host);
   // One that was linked may be gone.
   if (other == number || !contains(other)) {
-    schedule(number, host);
+    schedule(number, false, host);
     return {};
   }
   // What the host says of the two holds until the own time of either.
@@ -139,7 +140,7 @@ Result<void> Core::handle(std::uint32_t number, Host& host) {
 /// when they may meet. When both reports are of now, the host decides. Returns a time before which nothing
 /// happens between them, as Host::recheck() does.
 Result<double> Core::recheck(std::uint32_t number, std::uint32_t other, Host& host) {
-  ++host.work_counters().pair_checks;
+  ++host.work_counters(number).pair_checks;
   const Ball &ball = balls_[number], &partner = balls_[other];
   const auto is_plain = [](const Ball& each) { return each.is(Ball::plain) && !each.is(Ball::linked); };
   // What the host says holds as long as both stay in their safe regions.
@@ -153,7 +154,7 @@ Result<double> Core::recheck(std::uint32_t number, std::uint32_t other, Host& ho
   const bool are_exact = balls_.is_exact(number) && balls_.is_exact(other);
   for (;;) {
     const double until = apart_until(number, other, ball.own - now);
-    ++host.work_counters().certificates;
+    ++host.work_counters(number).certificates;
     if (until > now) return until;
     if (ball.time == now && partner.time == now) return ask_host();
     const bool is_first = ball.time < partner.time;
@@ -180,7 +181,7 @@ Result<void> Core::handle_own(std::uint32_t number, Host& host) {
   if (!until) return until.error();
   again.dismiss();
   limit_own(number, *until);
-  schedule(number, host);
+  schedule(number, false, host);
   return {};
 }
 
@@ -195,6 +196,7 @@ void Core::postpone(std::uint32_t number, double time) {
     ball.about = ball.second < ball.own ? number : none;
   }
   queue_.push(balls_.all(), number);
+  note_course(number);
 }
 
 /// Fetches what the balls that are due next need. Some of them may have been removed since they were queued.

@@ -38,9 +38,12 @@
 
 #include "core/balls.hpp"
 #include "core/due_queue.hpp"
+#include "core/first_radii.hpp"
+#include "core/ghosts.hpp"
 #include "core/host.hpp"
 #include "core/neighbour_lists.hpp"
 #include "core/region_cells.hpp"
+#include "core/stay_counts.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/world_definition.hpp"
 
@@ -68,7 +71,10 @@ class Core {
   void show(std::uint32_t number);
   void leave(std::uint32_t number);
   /// The ball has reported: its bound begins anew, within what was known.
-  void report(std::uint32_t number, const State& state) { balls_.set_state(number, state); }
+  void report(std::uint32_t number, const State& state) {
+    balls_.set_state(number, state);
+    note_course(number);
+  }
   /// The ball has another bound, which may be anywhere. It has to be told as changed.
   void set_bound(std::uint32_t number, const Bound& bound);
   /// The ball begins or ceases to touch or sense others, or to be one that meets others just where its bound
@@ -89,7 +95,7 @@ class Core {
 
   /// Serializes what rebuild() cannot find again.
   static void serialize(auto& self, auto& archive) {
-    archive(self.balls_, self.changes_, self.last_change_, self.first_radius_, self.measured_);
+    archive(self.balls_, self.changes_, self.first_radius_, self.measured_);
     if constexpr (std::is_const_v<std::remove_reference_t<decltype(self)>>) {
       archive(self.saved());
     } else {
@@ -100,6 +106,33 @@ class Core {
   bool can_hold(const Bound& bound, double time) const;
   /// Makes the rest anew after reading, at this time. Returns false if no core could have been so.
   bool rebuild(double time);
+
+  // A core with ghosts has a part of the balls of a world.
+  /// What a core knows of a ball.
+  struct Record {
+    Ball ball{};
+    Drift drift{};
+    std::uint64_t change = 0;
+    float reach = 0.0F;                       ///< of its safe region; 0 without one (region units)
+    std::vector<std::uint32_t> neighbours{};  ///< in their order
+    static void serialize(auto& self, auto& archive) {
+      archive(self.ball, self.drift.planned_acceleration, self.drift.growth_speed, self.change, self.reach,
+              self.neighbours);
+    }
+  };
+  Record record_of(std::uint32_t number) const;
+  /// Adopts a ball as another core knows it at this time, its neighbours by their numbers here. be_part() has
+  /// to follow when all are there, and of two neighbours each has to have the other.
+  void adopt(std::uint32_t number, const Record& record);
+  /// Takes part of a world: `ghosts` says which balls are ghosts, and notes what happens. `first_radius`
+  /// (length): Core::first_radius() of the whole world. `grows`, `drifts`: what Balls::any_grows() and
+  /// Balls::drifts() say of the whole.
+  void be_part(Ghosts& ghosts, double first_radius, bool grows, bool drifts);
+  bool is_ghost(std::uint32_t number) const { return ghosts_ != nullptr && ghosts_->is_ghost(number); }
+  /// Notes numbers on which the course of others depends, beside what the core knows of the ball.
+  void note_beside(std::uint32_t number, auto... numbers) {
+    if (ghosts_ != nullptr) ghosts_->note(number, numbers...);
+  }
 
   // Queries.
   /// What a ball is due about, and when.
@@ -128,9 +161,9 @@ class Core {
   std::vector<std::pair<Box, std::size_t>> cells() const;
   /// Returns the median reach of safe regions (length), as it was when cells were last chosen.
   double median_reach() const { return cells_.median_reach() * unit_; }
-  /// Returns about the median time for which balls that move stay in their safe regions from now on; infinity
-  /// if none moves. Cost: O(1), or O(n) where few move.
-  double median_stay() const;
+  /// Counts the balls that move, other than ghosts, by how long they stay in their safe regions from now on.
+  /// Cost: O(n).
+  StayCounts count_stays() const;
 
   /// What a check may expect of two balls. Of a ball with itself: `nothing` while it waits for settle(), and
   /// that it is in its safe region if it meets others as a ball.
@@ -140,6 +173,10 @@ class Core {
   const char* audit(const std::function<Claim(std::uint32_t, std::uint32_t)>& claim_of) const;
 
  private:
+  void note_course(std::uint32_t number) {
+    if (ghosts_ != nullptr) note_all(number);
+  }
+
   // core.cpp: the loop.
   Result<void> handle(std::uint32_t number, Host& host);
   Result<void> handle_own(std::uint32_t number, Host& host);
@@ -148,8 +185,8 @@ class Core {
   void prefetch() const;
 
   // scan.cpp
-  void note_change(std::uint32_t number) { changes_[number] = ++last_change_; }
-  void schedule(std::uint32_t number, Host& host);
+  void note_change(std::uint32_t number, Host& host);
+  void schedule(std::uint32_t number, bool has_changed, Host& host);
   std::span<const std::uint32_t> looked_out_for(std::uint32_t number,
                                                 std::span<const std::uint32_t> neighbours,
                                                 std::span<std::uint32_t> room) const;
@@ -176,6 +213,8 @@ class Core {
   Vec3 region_centre(const Ball& ball) const;
 
   // rebuild.cpp
+  void assemble();
+  [[gnu::cold]] void note_all(std::uint32_t number);
   /// What a snapshot holds beside the balls, by number.
   struct Saved {
     std::vector<float> reaches;  ///< with which safe regions were entered
@@ -187,12 +226,10 @@ class Core {
 
   // arrivals.cpp
   void place_arrivals(std::span<const std::uint32_t> changed, Host& host);
-  void place_together(std::span<std::uint32_t> arrivals, bool are_many, Host& host);
+  void choose_radii(std::span<Arrival> arrivals);
   double radius_among_others(std::uint32_t number);
   void join_crowd(std::uint32_t number, Host& host);
   void choose_first_radius();
-  double first_radius_of(std::span<const std::uint32_t> numbers) const;
-  Box extent_of(std::span<const std::uint32_t> numbers) const;
 
   // own_time.cpp
   void set_own(std::uint32_t number, double stay, Host& host);
@@ -214,9 +251,9 @@ class Core {
   NeighbourLists lists_;
   RegionCells cells_;
   DueQueue queue_;
-  std::vector<std::uint64_t>
-      changes_;  ///< by number: in which order balls have changed last; 0 for passive ones
-  std::uint64_t last_change_ = 0;
+  /// By number: of two neighbours, the one that has changed last has the larger value. 0 for passive ones.
+  std::vector<std::uint64_t> changes_;
+  Ghosts* ghosts_ = nullptr;    ///< nullptr where each ball is the world's own
   double first_radius_ = 0.0;   ///< of the first safe region of a ball that arrives alone (length)
   Saved saved_;                 ///< from a snapshot, until rebuild()
   std::size_t present_ = 0;     ///< how many balls there are

@@ -42,8 +42,8 @@ class Host {
   /// The safe region of a ball in periodic space is now around `centre`. Two balls meet in the images in
   /// which the centres of their safe regions are nearest.
   virtual void note_image(std::uint32_t ball, const Vec3& centre) = 0;
-  /// Returns where the core counts its searches, and the times that it computes.
-  virtual Counters& work_counters() = 0;
+  /// Returns where the core counts what it does for a ball: its searches, and the times that it computes.
+  virtual Counters& work_counters(std::uint32_t ball) = 0;
 
  protected:
   ~Host() = default;

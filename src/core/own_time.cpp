@@ -40,19 +40,13 @@ void Core::limit_own(std::uint32_t number, double walls_until) {
   ball.set(Ball::at_wall, true);
 }
 
-double Core::median_stay() const {
-  // At first of some 256 balls; of all, if none of these moves.
-  for (std::size_t step = balls_.size() / 256 + 1; step > 0; step = step > 1 ? 1 : 0) {
-    std::vector<double> stays;
-    for (std::size_t number = 0; number < balls_.size(); number += step)
-      if (const Ball& ball = balls_.all()[number]; ball.is_present() && ball.own < infinity)
-        stays.push_back(ball.own - balls_.time());
-    if (stays.empty()) continue;
-    const auto middle = stays.begin() + static_cast<std::ptrdiff_t>(stays.size() / 2);
-    std::nth_element(stays.begin(), middle, stays.end());
-    return *middle;
+StayCounts Core::count_stays() const {
+  StayCounts counts;
+  for (std::uint32_t number = 0; number < balls_.size(); ++number) {
+    const Ball& ball = balls_[number];
+    if (ball.is_present() && ball.own < infinity && !is_ghost(number)) counts.add(ball.own - balls_.time());
   }
-  return infinity;
+  return counts;
 }
 
 /// Returns a time before which nothing happens between the ball and the walls; now if reports have to decide.

@@ -5,6 +5,12 @@
 #include "core/core.hpp"
 
 namespace kinesphere::core {
+namespace {
+
+/// More than a world can make of changes.
+constexpr std::uint64_t most_changes = std::uint64_t{1} << 62;
+
+}  // namespace
 
 Core::Saved Core::saved() const {
   Saved saved;
@@ -20,6 +26,51 @@ Core::Saved Core::saved() const {
   return saved;
 }
 
+Core::Record Core::record_of(std::uint32_t number) const {
+  Record record{.ball = balls_[number], .drift = balls_.drift(number), .change = changes_[number]};
+  if (record.ball.has_region()) record.reach = cells_.reach_of(record.ball.slot);
+  if (record.ball.list != none) {
+    const auto neighbours = lists_.at(record.ball.list);
+    record.neighbours.assign(neighbours.begin(), neighbours.end());
+  }
+  return record;
+}
+
+void Core::adopt(std::uint32_t number, const Record& record) {
+  balls_.grow(number + 1);
+  changes_.resize(balls_.size());
+  saved_.reaches.resize(balls_.size());
+  saved_.lists.resize(balls_.size());
+  balls_.adopt(number, record.ball, record.drift);
+  changes_[number] = record.change;
+  saved_.reaches[number] = record.reach;
+  saved_.lists[number] = record.neighbours;
+}
+
+void Core::be_part(Ghosts& ghosts, double first_radius, bool grows, bool drifts) {
+  saved_.reaches.resize(balls_.size());
+  saved_.lists.resize(balls_.size());
+  assemble();
+  ghosts_ = &ghosts;
+  first_radius_ = first_radius;
+  balls_.expect(grows, drifts);
+  for (std::uint32_t number = 0; number < balls_.size(); ++number) {
+    if (balls_[number].list == none) continue;
+    for (const std::uint32_t other : lists_.at(balls_[number].list)) ghosts.note_neighbours(number, other);
+    if (balls_[number].has_region())
+      ghosts.note_region(number, region_centre(number), region_reach(number));
+  }
+}
+
+/// Notes what others see of a ball.
+void Core::note_all(std::uint32_t number) {
+  const Ball& ball = balls_[number];
+  ghosts_->note(number, ball.position.x, ball.position.y, ball.position.z, ball.velocity.x, ball.velocity.y,
+                ball.velocity.z, ball.time, ball.radius, ball.due, ball.own, ball.acceleration_limit,
+                ball.centre[0], ball.centre[1], ball.centre[2], ball.region, ball.walls, ball.flags,
+                changes_[number]);
+}
+
 bool Core::can_hold(const Bound& bound, double time) const {
   return norm_one(bound.centre_at(time)) + bound.radius_at(time) < 0x1p61 * unit_;
 }
@@ -33,19 +84,25 @@ bool Core::rebuild(double time) {
   for (std::vector<std::uint32_t>& list : sorted) std::sort(list.begin(), list.end());
   for (std::uint32_t number = 0; number < balls_.size(); ++number)
     if (!is_valid(number, sorted)) return false;
+  assemble();
+  return true;
+}
+
+/// Puts the balls that have been read or adopted into lists, cells and the queue.
+void Core::assemble() {
   for (std::uint32_t number = 0; number < balls_.size(); ++number) {
     Ball& ball = balls_[number];
     if (!ball.is_present()) continue;
     ++present_;
-    if (saved_.reaches[number] > 0.0F) cells_.enter(balls_, number, saved_.reaches[number]);
+    if (saved_.reaches[number] > 0.0F) cells_.add_unsorted(balls_, number, saved_.reaches[number]);
     if (ball.is(Ball::passive)) continue;
     ball.list = lists_.add();
     lists_.assign(ball.list, saved_.lists[number]);
   }
+  cells_.sort(balls_);
   saved_ = {};
-  queue_.refill(balls_.all(), time);
+  queue_.refill(balls_.all(), balls_.time());
   queued_for_ = balls_.size();
-  return true;
 }
 
 /// Returns false if no ball can be like this one, which was read from bytes. `lists`: in ascending order.
@@ -55,7 +112,7 @@ bool Core::is_valid(std::uint32_t number, std::span<const std::vector<std::uint3
   if (ball.is_present() && !can_hold(balls_.bound(number), balls_.time())) return false;
   const std::vector<std::uint32_t>& neighbours = lists[number];
   if (!ball.is_present()) return neighbours.empty();
-  if (changes_[number] > last_change_ || (ball.is(Ball::passive) && changes_[number] != 0)) return false;
+  if (changes_[number] > most_changes || (ball.is(Ball::passive) && changes_[number] != 0)) return false;
   const float reach = saved_.reaches[number];
   if (ball.is(Ball::arriving) && (!neighbours.empty() || ball.about != none)) return false;
   if (ball.is(Ball::arriving) && reach == 0.0F) return true;

@@ -60,26 +60,27 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
   Ball& ball = balls_[number];
   // The bound may be tighter than when `own` was computed.
   const double stay = stays(number);
-  if (stay <= stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time())) {
-    const double radius = double{ball.region} * unit_;
-    const bool is_wide = balls_.growth(number) > growth_worth_a_report * radius;
-    const bool is_far = norm_one(balls_.position(number) - ball.position) > longest_flight * radius;
-    if (is_wide || is_far)
-      if (auto reported = host.report(std::span(&number, 1), Host::Reason::region); !reported)
-        return reported.error();
-    move_region(number, host);
-    note_change(number);
-  } else {
+  if (stay > stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time())) {
     set_own_later(number, stay, host);
+    schedule(number, false, host);
+    return {};
   }
-  schedule(number, host);
+  const double radius = double{ball.region} * unit_;
+  const bool is_wide = balls_.growth(number) > growth_worth_a_report * radius;
+  const bool is_far = norm_one(balls_.position(number) - ball.position) > longest_flight * radius;
+  if (is_wide || is_far)
+    if (auto reported = host.report(std::span(&number, 1), Host::Reason::region); !reported)
+      return reported.error();
+  move_region(number, host);
+  note_change(number, host);
+  schedule(number, true, host);
   return {};
 }
 
 /// Gives the ball another safe region, neighbours, and an own time. Memory is what takes the time: each step
 /// fetches what a later one needs.
 void Core::move_region(std::uint32_t number, Host& host) {
-  ++host.work_counters().starts;
+  ++host.work_counters(number).starts;
   place_region(number, next_radius(number));
   const Ball& ball = balls_[number];
   if (balls_.periods().any) host.note_image(number, region_centre(ball));
@@ -145,6 +146,7 @@ void Core::place_region(std::uint32_t number, double radius) {
   ball.region = static_cast<float>((radius + resolved + growth) / unit_);
   for (int axis = 0; axis < 3; ++axis)
     ball.centre[axis] = static_cast<float>((centre[axis] - origin_[axis]) / unit_);
+  if (ghosts_ != nullptr) ghosts_->note_region(number, region_centre(ball), double{reach(ball)} * unit_);
   ball.walls = 0;
   if (!ball.is(Ball::meets_walls)) return;
   const double extent = double{reach(ball)} * unit_;
@@ -184,7 +186,7 @@ void Core::find_neighbours(std::uint32_t number, Host& host) {
 /// Puts a passive ball into the lists of those that were found, which look for it then.
 void Core::join_lists(std::uint32_t number, Host& host) {
   cells_.finish_search(search_);
-  ++host.work_counters().searches;
+  ++host.work_counters(number).searches;
   for (const std::uint32_t other : search_.found.first(host.keep_partners(number, search_.found))) {
     if (balls_[other].is(Ball::passive)) continue;
     // One that arrives with it may have found it already.
@@ -206,8 +208,8 @@ void Core::compare_neighbours(std::uint32_t number, Host& host) {
   for (const std::uint32_t other : new_) prefetch_line(&balls_[other]);
   for (const auto* const others : {&gone_, &new_})
     for (const std::uint32_t other : *others) prefetch_line(&balls_[other].due);
-  ++host.work_counters().searches;
-  host.work_counters().candidates += lists_.at(balls_[number].list).size() + new_.size() - gone_.size();
+  ++host.work_counters(number).searches;
+  host.work_counters(number).candidates += lists_.at(balls_[number].list).size() + new_.size() - gone_.size();
 }
 
 /// Makes those who have come within reach the neighbours of a ball, and it theirs; those who left, no longer.
@@ -220,6 +222,7 @@ void Core::update_lists(std::uint32_t number) {
     if (!balls_[other].is(Ball::passive)) forget(other, number);
   }
   for (const std::uint32_t other : new_) {
+    if (ghosts_ != nullptr) ghosts_->note_neighbours(number, other);
     lists_.add_to(balls_[number].list, other);
     if (!balls_[other].is(Ball::passive)) lists_.add_to(balls_[other].list, number);
   }

@@ -9,21 +9,31 @@
 
 namespace kinesphere::core {
 
+/// A ball has changed: it looks out for all of its neighbours from now on, and for those that it touches.
+void Core::note_change(std::uint32_t number, Host& host) {
+  const Ball& ball = balls_[number];
+  std::uint64_t last = changes_[number];
+  for (const std::uint32_t other : lists_.at(ball.list)) last = std::max(last, changes_[other]);
+  if (ball.is(Ball::linked))
+    for (const std::uint32_t other : host.linked_with(number)) last = std::max(last, changes_[other]);
+  changes_[number] = last + 1;
+}
+
 /// Computes when a ball is due: at its own time, or when something may happen between it and a neighbour that
-/// it looks out for, if that is earlier.
-void Core::schedule(std::uint32_t number, Host& host) {
+/// it looks out for, if that is earlier. `has_changed`: it has just done so, so that it looks out for all.
+void Core::schedule(std::uint32_t number, bool has_changed, Host& host) {
   Ball& ball = balls_[number];
   if (ball.is(Ball::passive)) return;
   if (ball.scans < 255) ++ball.scans;
   ball.about = none;
   ball.due = ball.second = ball.own;
-  if (changes_[number] == last_change_) ball.set(Ball::crowded, false);
+  if (has_changed) ball.set(Ball::crowded, false);
   const auto neighbours = lists_.at(ball.list);
-  Counters& work = host.work_counters();
+  Counters& work = host.work_counters(number);
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     std::array<std::uint32_t, most_lanes> room;
-    const auto some =
-        looked_out_for(number, neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes)), room);
+    auto some = neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes));
+    if (!has_changed) some = looked_out_for(number, some, room);
     std::array<double, most_lanes> apart;
     for (std::uint32_t left = candidates(number, some, ball.second - balls_.time(), apart); left != 0;
          left &= left - 1) {
@@ -46,6 +56,7 @@ void Core::schedule(std::uint32_t number, Host& host) {
       if (changes_[other] <= changes_[number])
         consider(ball, other, std::min(host.unchanged_until(number, other), balls_[other].own));
   queue_.push(balls_.all(), number);
+  note_course(number);
 }
 
 /// Returns those of some neighbours that a ball looks out for, as they have not changed since it did. The
@@ -54,7 +65,6 @@ std::span<const std::uint32_t> Core::looked_out_for(std::uint32_t number,
                                                     std::span<const std::uint32_t> neighbours,
                                                     std::span<std::uint32_t> room) const {
   const std::uint64_t change = changes_[number];
-  if (change == last_change_) return neighbours;
   std::size_t count = 0;
   for (const std::uint32_t neighbour : neighbours) {
     room[count] = neighbour;

@@ -98,7 +98,7 @@ Result<void> World::Engine::end_epoch(PoolLease& lease) {
   const std::uint64_t& probes = main_.work().counters.probes;
   const auto census = main_.spot_check_due(all, probes, lease);
   if (!census) return census.error();
-  const double pace = state_.core ? state_.core->median_stay() : state_.window_policy.main_length();
+  const double pace = state_.core ? state_.core->count_stays().median() : state_.window_policy.main_length();
   state_.spot_checks.note_check(pace, time(), *census, probes);
   return {};
 }

@@ -50,6 +50,15 @@ void EventProcessor::set_kind_in_core(std::uint32_t number) {
   core().set_kind(number, is_linked, is_plain);
 }
 
+/// Tells the core how a rigid body turns, as far as it tells others (core::Ghosts).
+void EventProcessor::note_rotation(std::uint32_t number) {
+  const RigidRecord* const turning = bodies().rigid.find(bodies()[number]);
+  if (turning == nullptr) return;
+  const Rotation now = turning->at(time_);
+  core().note_beside(number, now.orientation.w, now.orientation.x, now.orientation.y, now.orientation.z,
+                     now.angular_velocity.x, now.angular_velocity.y, now.angular_velocity.z);
+}
+
 /// Tells the core of reports that have begun bounds anew.
 void EventProcessor::note_reports(std::span<const std::uint32_t> numbers) {
   for (const std::uint32_t number : numbers) {
@@ -81,9 +90,10 @@ void EventProcessor::settle_core() {
     else
       enter_core(number);
     set_kind_in_core(number);
+    note_rotation(number);
     body.mark_visited();
   }
-  work_.counters.restarts += round_.size();
+  for (const std::uint32_t number : round_) ++counters_of(number).restarts;
   dirty_.clear();
   round_.insert(round_.end(), linked_.begin(), linked_.end());
   linked_.clear();

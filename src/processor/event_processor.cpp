@@ -65,10 +65,11 @@ std::optional<Event> EventProcessor::pop() {
   if (!event) return event;
   event->first = bodies().table().tagged(event->first);
   if (event->second != no_body) event->second = bodies().table().tagged(event->second);
-  ++work_.counters.events[static_cast<std::size_t>(event->kind)];
+  Counters& counters = counters_of(bodies().table().number_of(event->first));
+  ++counters.events[static_cast<std::size_t>(event->kind)];
   if (!bodies().sleep_records.empty()) Sleeping(*state_, *this).wake_by(*event);
-  if (event->repeated) ++work_.counters.repeated_contacts;
-  if (event->jammed) ++work_.counters.jammed_contacts;
+  if (event->repeated) ++counters.repeated_contacts;
+  if (event->jammed) ++counters.jammed_contacts;
   if (reports_.profile() != nullptr) reports_.profile()->note_event(bodies().table(), *event);
   return event;
 }
@@ -76,7 +77,7 @@ std::optional<Event> EventProcessor::pop() {
 /// Counts probes. They are counted first, so that a probe that throws leaves the same state as one that gives
 /// no answer.
 void EventProcessor::note_probes(std::span<const std::uint32_t> numbers, ProbeCause cause) {
-  work_.counters.probes += numbers.size();
+  for (const std::uint32_t number : numbers) ++counters_of(number).probes;
   if (reports_.profile() != nullptr) reports_.profile()->note_probes(bodies().table(), numbers, cause);
 }
 
@@ -134,8 +135,10 @@ Result<SpotChecks::Census> EventProcessor::spot_check_due(std::span<const std::u
     const std::uint32_t name = bodies().table().name_of(number);
     const bool may_be_due = may_choose_any || name < SpotChecks::first_names || body.bound.velocity == Vec3{};
     if ((!may_be_due && !counts && census.any) || !SpotChecks::concerns(body)) continue;
-    census.any = true;
-    if (counts) SpotChecks::count(census, body);
+    if (!(uses_core() && core().is_ghost(number))) {
+      census.any = true;
+      if (counts) SpotChecks::count(census, body);
+    }
     if (may_be_due && SpotChecks::may_check(body, time_) && checks.is_due(body, name, time_))
       due.push_back(number);
   }

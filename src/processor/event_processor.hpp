@@ -196,6 +196,9 @@ class alignas(128) EventProcessor final : public core::Host {
     enter_core(number);
     core().show(number);
   }
+  /// Returns what is known of pairs that are near. With a core only.
+  PairTimes& pair_times() { return known_; }
+  const PairTimes& pair_times() const { return known_; }
   /// Makes anew what a snapshot does not contain of a core. Returns false if no core could have been so.
   bool rebuild_core();
   bool uses_core() const { return state_->core.has_value(); }
@@ -205,8 +208,10 @@ class alignas(128) EventProcessor final : public core::Host {
  private:
   // core_host.cpp
   core::Core& core() { return *state_->core; }
+  const core::Core& core() const { return *state_->core; }
   Bound extent_of(std::uint32_t number) const;
   void set_kind_in_core(std::uint32_t number);
+  void note_rotation(std::uint32_t number);
   void settle_core();
   void note_reports(std::span<const std::uint32_t> numbers);
   void note_link_change(std::uint32_t a, std::uint32_t b);
@@ -219,7 +224,11 @@ class alignas(128) EventProcessor final : public core::Host {
   Result<double> recheck_walls(std::uint32_t ball) override;
   Result<bool> report(std::span<const std::uint32_t> balls, Reason reason) override;
   void note_image(std::uint32_t ball, const Vec3& centre) override;
-  Counters& work_counters() override { return work_.counters; }
+  Counters& work_counters(std::uint32_t ball) override { return counters_of(ball); }
+  /// Where work on a body is counted: that on ghosts is not counted with that on others.
+  Counters& counters_of(std::uint32_t number) {
+    return uses_core() && core().is_ghost(number) ? of_ghosts_ : work_.counters;
+  }
 
   void open_queue();
   Result<void> recertify_all();
@@ -252,10 +261,10 @@ class alignas(128) EventProcessor final : public core::Host {
   std::optional<double> decide_walls(std::uint32_t number);
   template <class Partner, class EventNow>
   std::optional<double> decide(const ContactPredictor<Partner>& predictor, const Threshold& threshold,
-                               const RelativeLimits& limits, EventNow event_now);
+                               const RelativeLimits& limits, Counters& work, EventNow event_now);
   template <class Partner>
   double defer(const ContactPredictor<Partner>& predictor, const Threshold& threshold, const Event& current,
-               const RelativeLimits& limits);
+               const RelativeLimits& limits, Counters& work);
   Result<void> probe_stale_of(std::uint32_t a, std::uint32_t b);
   Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
@@ -272,6 +281,7 @@ class alignas(128) EventProcessor final : public core::Host {
   bool gathering_ = false;
   Pace pace_;
   WorkCounters work_;
+  Counters of_ghosts_;
   Reports reports_;
   PairTimes known_;                    ///< with a core: of pairs that are near
   std::vector<std::uint32_t> linked_;  ///< with a core: bodies whose contacts have changed

@@ -35,6 +35,13 @@ class PairTimes {
     if (count_ > 0) table_[place_of(name_of(a, b))].until = -infinity;
   }
 
+  /// Calls visit(a, b, until) for each pair, in no order.
+  void for_each(const Bodies& bodies, auto visit) const {
+    for (const Entry& entry : table_)
+      if (entry.pair != nothing && entry.is_of(bodies, entry.pair))
+        visit(entry.first(), entry.second(), entry.until);
+  }
+
   static void serialize(auto& self, auto& archive) { archive(self.table_, self.count_); }
   /// Validates what was read from bytes.
   bool is_valid(std::size_t bodies) const {

@@ -38,7 +38,7 @@ Result<std::optional<double>> EventProcessor::check_pair(std::uint32_t a, std::u
   while (!bodies()[a].dirty && !bodies()[b].dirty) {
     const bool fresh = bodies()[a].fresh(time_) && bodies()[b].fresh(time_);
     if (fresh) return decide_pair(a, b);
-    ++work_.counters.certificates;
+    ++counters_of(a).certificates;
     const double until = certifier.are_linked(a, b) ? certifier.unchanged_until_by_thresholds(a, b)
                                                     : certifier.apart_until(a, b);
     if (until > time_) return std::optional(until);
@@ -87,13 +87,14 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
                      bodies().largest_acceleration(a) + bodies().largest_acceleration(b)};
   const double until = bodies().radii.any() ? note_rates(sum, {a, b}, end) : end;
   std::optional<double> next = infinity;
+  Counters& work = counters_of(a);
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
     certifier.for_each_threshold(a, b, [&](const Threshold& threshold) {
-      ++work_.counters.certificates;
+      ++work.certificates;
       const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {until, end},
                                        sum.excess_growth);
       const auto known =
-          decide(predictor, threshold, sum, [&] { return contact(EventKind::zeno_guard, a, b); });
+          decide(predictor, threshold, sum, work, [&] { return contact(EventKind::zeno_guard, a, b); });
       next = next && known ? std::optional(std::min(*next, *known)) : std::nullopt;
     });
   });
@@ -103,16 +104,16 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
 
 /// Applies the contact rule to fresh reports. Queues the events that result. Returns the time before which
 /// the threshold cannot be crossed, or nullopt if a begin or an end was queued. `event_now` returns an event
-/// that describes the two now.
+/// that describes the two now. `work`: where it is counted.
 template <class Partner, class EventNow>
 std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& predictor,
                                              const Threshold& threshold, const RelativeLimits& limits,
-                                             EventNow event_now) {
+                                             Counters& work, EventNow event_now) {
   if (const auto next_check = predictor.next_check_if_apart()) return next_check;
   Event current = event_now();
   ContactDecision decision = predictor.decide(current, limits);
   if (decision.change == ContactRule::Change::begin && !threshold.sensed && contacts().is_jammed(current))
-    return defer(predictor, threshold, current, limits);
+    return defer(predictor, threshold, current, limits, work);
   if (decision.is_event()) {
     current.kind = kind_of(decision.change, threshold.sensed, current.wall);
     current.distance = threshold.distance;
@@ -120,7 +121,7 @@ std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& pr
     return std::nullopt;
   }
   if (decision.change == ContactRule::Change::release) contacts().set_touching(current, false);
-  if (decision.zeno_step) ++work_.counters.zeno_steps;
+  if (decision.zeno_step) ++work.zeno_steps;
   if (threshold.sensed) return decision.next_check;
   const bool stays = threshold.within && decision.change != ContactRule::Change::release;
   ContactState state = stays ? threshold.state : ContactState{};
@@ -137,9 +138,9 @@ std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& pr
 /// separated.
 template <class Partner>
 double EventProcessor::defer(const ContactPredictor<Partner>& predictor, const Threshold& threshold,
-                             const Event& current, const RelativeLimits& limits) {
+                             const Event& current, const RelativeLimits& limits, Counters& work) {
   const ContactDecision decision = predictor.defer(current, limits);
-  ++work_.counters.zeno_steps;
+  ++work.zeno_steps;
   const ContactGraph::Jam jam = contacts().note_jam(current, threshold, decision.breaks_tolerance);
   if (jam.is_news) events_.queue(current);
   return jam.is_last ? predictor.until_separated() : decision.next_check;
@@ -147,7 +148,7 @@ double EventProcessor::defer(const ContactPredictor<Partner>& predictor, const T
 
 /// Evaluates check_pair() for a body and the walls.
 Result<std::optional<double>> EventProcessor::check_walls(std::uint32_t number) {
-  ++work_.counters.wall_checks;
+  ++counters_of(number).wall_checks;
   while (!bodies()[number].dirty) {
     if (bodies()[number].fresh(time_)) return decide_walls(number);
     const double until = certifier().walls_unchanged_until(number);
@@ -176,7 +177,7 @@ std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
     const auto next = visit_wall(shape, inside, [&](const Bound& bound, const auto& partner) {
       const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {until, end},
                                        limits.excess_growth);
-      return decide(predictor, threshold, limits,
+      return decide(predictor, threshold, limits, counters_of(number),
                     [&] { return wall_contact(EventKind::zeno_guard, number, wall); });
     });
     if (next) first = std::min(first, *next);

@@ -219,6 +219,8 @@ class BouncingBalls final : core::Host {
     double until = std::numeric_limits<double>::infinity();
     for (const Wall wall : walls)
       if (stands(*walls_of(definition_), wall)) until = std::min(until, answer_wall(ball, wall));
+    // A ball that has bounced off one of them may be back at any time.
+    if (changed_.contains(ball)) return std::numeric_limits<double>::infinity();
     return put_off(ball, core::none, until);
   }
   Result<bool> report(std::span<const std::uint32_t> balls, Reason) override {
@@ -226,7 +228,7 @@ class BouncingBalls final : core::Host {
     return true;
   }
   void note_image(std::uint32_t, const Vec3&) override {}
-  Counters& work_counters() override { return work; }
+  Counters& work_counters(std::uint32_t) override { return work; }
 
   double put_off(std::uint32_t a, std::uint32_t b, double until) {
     if (until < std::numeric_limits<double>::infinity()) put_off_[std::minmax(a, b)] = until;

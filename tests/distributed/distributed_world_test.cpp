@@ -203,7 +203,6 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
   RunOutcome one;
   EventHash hash;
   World world = World::create(setting.scene.world).value();
-  use_windows(world);
   BodyMap map;
   const auto sink = [&](const Event& event) { hash.add(event); };
   std::vector<std::uint32_t> order;

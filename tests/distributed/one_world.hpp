@@ -18,7 +18,6 @@
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/workers.hpp"
 #include "simulation/scene/scene.hpp"
-#include "support/in_windows.hpp"
 
 namespace kinesphere {
 
@@ -92,7 +91,6 @@ inline RunOutcome alone(const Setting& setting) {
   const Scene& scene = setting.scene;
   const std::unique_ptr<Motion> motion = scene.motion->clone();
   World world = World::create(scene.world).value();
-  use_windows(world);
   if (setting.sensors) world.set_sensor(1, setting.sensor()).value();
   for (std::uint32_t k = 0; k < scene.bodies.size(); ++k)
     setting.add(

@@ -1,0 +1,47 @@
+#include "distributed/body_record.hpp"
+
+#include <utility>
+
+namespace kinesphere {
+
+BodyRecord record_of(const Bodies& bodies, const ContactGraph& contacts, std::uint32_t number) {
+  const auto name_of = [&](std::uint32_t other) { return bodies.table().name_of(other); };
+  const auto [body, image] = bodies.checkpoint(number);
+  BodyRecord record{.name = name_of(number),
+                    .body = body,
+                    .image = image,
+                    .filter = bodies.filters.of(number),
+                    .mass = bodies.masses.of(number),
+                    .radius = bodies.radii.of(number),
+                    .contacts = ContactCheckpoint::of(contacts, number)};
+  if (body.has_shape()) record.shape = bodies.shapes.of(body);
+  if (const RigidRecord* const turning = bodies.rigid.find(body)) record.rigid = *turning;
+  PartnerList partners;
+  for (const auto& [partner, state] : std::as_const(record).contacts.partners.all())
+    partners.set({name_of(partner), state});
+  record.contacts.partners = std::move(partners);
+  for (OverlapRecord& overlap : record.contacts.overlaps) overlap.partner = name_of(overlap.partner);
+  return record;
+}
+
+std::uint32_t install(const BodyRecord& record, Bodies& bodies, ContactGraph& contacts, double time) {
+  const std::uint32_t number = bodies.add_named(BodyDefinition{}, time, record.name);
+  Body& body = bodies[number];
+  const std::uint32_t generation = body.generation;
+  body = record.body;
+  body.generation = generation;
+  body.shape_number = body.change_number = body.sleep_number = Body::none;
+  body.is_rigid = body.carries_shape = false;
+  if (record.shape) bodies.give_shape(number, *record.shape, true);
+  if (record.rigid) bodies.make_rigid(number, *record.rigid);
+  bodies.filters.keep(number, record.filter);
+  bodies.masses.keep(number, record.mass);
+  bodies.radii.keep(number, record.radius);
+  bodies.set_solid(number, body.solid);
+  if (bodies.space().repeats()) bodies.images[number] = record.image;
+  contacts.add(number, 0.0);
+  record.contacts.restore_alone(contacts, number);
+  return number;
+}
+
+}  // namespace kinesphere
