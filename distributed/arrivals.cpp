@@ -123,8 +123,9 @@ void DistributedWorld::RankEngine::take_arrivals() {
     record.in_motion = arriving_in_motion_[number];
     record.is_arriving = true;
   }
-  std::sort(own_.begin(), own_.end(),
-            [](const BodyRecord& a, const BodyRecord& b) { return a.name < b.name; });
+  const auto comes_before = [](const BodyRecord& a, const BodyRecord& b) { return a.name < b.name; };
+  if (!std::is_sorted(own_.begin(), own_.end(), comes_before))
+    std::sort(own_.begin(), own_.end(), comes_before);
   arriving_ = std::make_unique<WorldState>(definition_);
   arriving_in_motion_.clear();
 }
@@ -140,7 +141,7 @@ Result<void> DistributedWorld::RankEngine::start_arrivals() {
     arrivals.push_back(&record);
     const Bound& bound = record.body.bound;
     exact += bound.is_exact() ? 1 : 0;
-    shaped += record.shape || record.rigid ? 1 : 0;
+    shaped += record.shape.empty() && record.rigid.empty() ? 0 : 1;
     growing += bound.is_exact() ? 0 : 1;
     drifting += bound.planned_acceleration != Vec3{} || bound.growth_speed != 0.0 ? 1 : 0;
   }

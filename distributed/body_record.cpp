@@ -14,8 +14,8 @@ BodyRecord record_of(const Bodies& bodies, const ContactGraph& contacts, std::ui
                     .mass = bodies.masses.of(number),
                     .radius = bodies.radii.of(number),
                     .contacts = ContactCheckpoint::of(contacts, number)};
-  if (body.has_shape()) record.shape = bodies.shapes.of(body);
-  if (const RigidRecord* const turning = bodies.rigid.find(body)) record.rigid = *turning;
+  if (body.has_shape()) record.shape.push_back(bodies.shapes.of(body));
+  if (const RigidRecord* const turning = bodies.rigid.find(body)) record.rigid.push_back(*turning);
   PartnerList partners;
   for (const auto& [partner, state] : std::as_const(record).contacts.partners.all())
     partners.set({name_of(partner), state});
@@ -32,8 +32,8 @@ std::uint32_t install(const BodyRecord& record, Bodies& bodies, ContactGraph& co
   body.generation = generation;
   body.shape_number = body.change_number = body.sleep_number = Body::none;
   body.is_rigid = body.carries_shape = false;
-  if (record.shape) bodies.give_shape(number, *record.shape, true);
-  if (record.rigid) bodies.make_rigid(number, *record.rigid);
+  for (const Shape& shape : record.shape) bodies.give_shape(number, shape, true);
+  for (const RigidRecord& rigid : record.rigid) bodies.make_rigid(number, rigid);
   bodies.filters.keep(number, record.filter);
   bodies.masses.keep(number, record.mass);
   bodies.radii.keep(number, record.radius);

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "archive/fields.hpp"
@@ -30,8 +29,8 @@ struct BodyRecord {
   Filter filter{};
   double mass = 1.0;
   ChangingRadius radius{};
-  std::optional<Shape> shape{};        ///< of a moving shape
-  std::optional<RigidRecord> rigid{};  ///< of a rigid body
+  std::vector<Shape> shape{};        ///< one, of a moving shape; few bodies have one
+  std::vector<RigidRecord> rigid{};  ///< one, of a rigid body
   ContactCheckpoint contacts{};
   /// It has arrived, and has no part in what moves as yet. `first_radius`: of its first safe region (length);
   /// 0 if it looks how far others are.

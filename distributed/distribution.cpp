@@ -62,7 +62,7 @@ Result<void> Distribution::assign(std::vector<BodyRecord>& own, double time) {
   auto arrived = receive(buffers.exchange(communicator_));
   if (!arrived) return arrived.error();
   std::move(arrived->begin(), arrived->end(), std::back_inserter(own));
-  std::sort(own.begin(), own.end(), comes_before);
+  if (!arrived->empty()) std::sort(own.begin(), own.end(), comes_before);
   return {};
 }
 
@@ -111,28 +111,28 @@ Box Distribution::way_of(const BodyRecord& body, const Slab& slab) const {
   return space_.within(way);
 }
 
-/// Returns the region of a rank and what is around it.
-Box Distribution::halo_of(int rank, double margin) const {
+/// Returns the region of a rank and what is so far around it.
+Box Distribution::region_around(int rank, double distance) const {
   Box region = partition_.region_of(rank);
   for (int axis = 0; axis < 3; ++axis) {
     if (!space_.repeats(axis) || region.upper[axis] < region.lower[axis]) continue;
     region.lower[axis] = std::max(region.lower[axis], primary_.lower[axis]);
     region.upper[axis] = std::min(region.upper[axis], primary_.upper[axis]);
   }
-  return grown(region, margin);
+  return grown(region, distance);
 }
 
-/// Makes known the regions of which ranks have to know all bodies: those around their own regions, and around
+/// Makes known where the safe regions of each rank's bodies will be: around its region of space, and around
 /// the ways of bodies that lead elsewhere.
-void Distribution::know(std::span<const Box> ways, double margin) {
+void Distribution::know(std::span<const Box> ways, double width) {
   for (int rank = 0; rank < communicator_.ranks(); ++rank) {
-    const Box halo = halo_of(rank, margin);
-    known_[rank].assign(std::span(&halo, 1));
+    const Box around = region_around(rank, width);
+    known_[rank].assign(std::span(&around, 1));
   }
   std::vector<Box> elsewhere;
   for (const Box& way : ways) {
     if (known_.covers(way)) continue;
-    elsewhere.push_back(grown(way, margin));
+    elsewhere.push_back(grown(way, width));
     known_[communicator_.rank()].add(elsewhere.back());
   }
   ByteWriter writer;
@@ -149,17 +149,17 @@ void Distribution::know(std::span<const Box> ways, double margin) {
 }
 
 Result<std::vector<BodyRecord>> Distribution::send_ghosts(std::span<const BodyRecord> own, const Slab& slab,
-                                                          double margin) {
+                                                          const Halo& halo) {
   sent_.clear();
   if (communicator_.ranks() == 1) return std::vector<BodyRecord>();
   std::vector<Box> ways;
   ways.reserve(own.size());
   for (const BodyRecord& body : own) ways.push_back(way_of(body, slab));
-  know(ways, margin);
+  know(ways, halo.width);
   SendBuffers buffers(communicator_.ranks());
   consensus_.note(guarded([&] {
     for (std::size_t k = 0; k < own.size(); ++k) {
-      const std::vector<int> ranks = known_.ranks_that_meet(ways[k]);
+      const std::vector<int> ranks = known_.ranks_that_meet(grown(ways[k], halo.margin));
       if (ranks.empty()) continue;
       BodyRecord ghost = own[k];
       motion_.write_body(ghost.in_motion, ghost.motion).value();

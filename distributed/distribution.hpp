@@ -24,6 +24,12 @@ struct Slab {
   bool is_least = false;  ///< it contains one instant
 };
 
+/// How far around its region of space a rank knows bodies.
+struct Halo {
+  double width = 0.0;   ///< the safe regions of its own bodies reach so far beyond it (length)
+  double margin = 0.0;  ///< it has ghosts of what is so far around these (length)
+};
+
 /// Functions that return a Result are collective. Errors, equal on all ranks: those of Motion::write_body,
 /// Motion::read_body and Motion::remove.
 class Distribution {
@@ -44,9 +50,9 @@ class Distribution {
   /// rank's.
   Result<void> assign(std::vector<BodyRecord>& own, double time);
   /// Sends ghosts to all ranks that may need them during the slab. Returns those that arrive, by name, whose
-  /// motions have been read. `margin`: how far around their own bodies ranks have ghosts (length).
+  /// motions have been read.
   Result<std::vector<BodyRecord>> send_ghosts(std::span<const BodyRecord> own, const Slab& slab,
-                                              double margin);
+                                              const Halo& halo);
   /// Removes the motions of ghosts.
   void drop(std::span<const BodyRecord> ghosts);
   /// Collective. Returns how many ranks have a ghost that its owner disagrees with, or may lack one: in the
@@ -60,8 +66,8 @@ class Distribution {
   Vec3 place_of(const BodyRecord& body, double time) const;
   Box way_of(const BodyRecord& body, const Slab& slab) const;
   void divide(std::span<BodyRecord> own, double time);
-  Box halo_of(int rank, double margin) const;
-  void know(std::span<const Box> ways, double margin);
+  Box region_around(int rank, double distance) const;
+  void know(std::span<const Box> ways, double width);
   Result<std::vector<BodyRecord>> receive(std::vector<Communicator::Bytes> bytes);
   bool lacks_ghosts(const Part& part) const;
 
@@ -71,7 +77,7 @@ class Distribution {
   Box primary_;  ///< in which periodic space repeats
   Motion& motion_;
   Partition partition_;
-  HaloRegions known_;
+  HaloRegions known_;  ///< where the safe regions of the bodies of each rank are
   std::uint64_t divisions_ = 0;
   /// Ranks to which the bodies of this rank were sent as ghosts, by name.
   std::vector<std::pair<std::uint32_t, int>> sent_;

@@ -86,10 +86,12 @@ BodyRecord Part::record_of(std::uint32_t number) const {
   return record;
 }
 
-void Part::update(std::vector<BodyRecord>& records) const {
+std::uint64_t Part::update(std::vector<BodyRecord>& records) const {
   std::vector<std::uint32_t> places(numbers(), core::none);
+  std::uint64_t notes = 0;
   for (std::uint32_t place = 0; place < records.size(); ++place) {
     const std::uint32_t number = number_of(records[place].name);
+    notes += ghosts_.notes_of(number);
     const double cost = records[place].cost + ghosts_.notes_of(number);
     records[place] = record_of(number);
     records[place].cost = cost;
@@ -100,11 +102,12 @@ void Part::update(std::vector<BodyRecord>& records) const {
     if (places[a] != core::none) records[places[a]].times.push_back({name_of(b), until});
     if (a != b && places[b] != core::none) records[places[b]].times.push_back({name_of(a), until});
   });
+  return notes;
 }
 
 Result<void> Part::begin() { return main_.recertify(); }
 
-Result<void> Part::run(double stop, double until, const ResponseFn* respond,
+Result<void> Part::run(double stop, double until, std::size_t most, const ResponseFn* respond,
                        std::vector<OrderedEvent>& events) {
   main_.begin_call(until);
   std::optional<RankResponder> responder;
@@ -119,7 +122,10 @@ Result<void> Part::run(double stop, double until, const ResponseFn* respond,
     if (!main_.events().pending().empty()) continue;
     const double next = main_.next_time();
     if (!(next < stop && next <= until)) break;
-    if (next > time()) round = 0;
+    if (next > time()) {
+      if (events.size() >= most) return {};
+      round = 0;
+    }
     main_.begin_instant(next);
     if (auto noted = main_.note_instant(); !noted) return noted;
   }

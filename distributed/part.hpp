@@ -51,15 +51,18 @@ class Part {
 
   /// Recertifies the bodies that have arrived or wait for a report. Errors: those of probes.
   Result<void> begin();
-  /// Advances to `until`, or to `stop` without what is due at that time. `respond` may be null. Appends the
+  /// Advances to `until`, or to `stop` without what is due at that time, or until there are `most` events,
+  /// whichever is first. `respond` may be null. Appends the
   /// events whose first body is no ghost. Errors: those of probes and of responses; time() is then that of
   /// the failure.
-  Result<void> run(double stop, double until, const ResponseFn* respond, std::vector<OrderedEvent>& events);
+  Result<void> run(double stop, double until, std::size_t most, const ResponseFn* respond,
+                   std::vector<OrderedEvent>& events);
   /// Gives the bodies of the motion the origins back that they had before run().
   void undo();
 
-  /// Brings records of bodies of this part up to date, in ascending order of names, without their motions.
-  void update(std::vector<BodyRecord>& records) const;
+  /// Brings records of bodies of this part up to date, without their motions. Returns how often something has
+  /// happened to these bodies.
+  std::uint64_t update(std::vector<BodyRecord>& records) const;
 
  private:
   void install(const BodyRecord& record);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -17,16 +18,16 @@
 namespace kinesphere {
 namespace {
 
-/// Ranks have ghosts so far around their own bodies, in widths of safe regions. More of them allow longer
-/// slabs.
-constexpr double margin_in_widths = 2.0;
-/// A slab that failed is tried again with this part of its duration, and with so many times its margin.
-constexpr double shorter = 0.5;
-constexpr double wider = 1.3;
-/// After a slab that did not fail, the next one is so much longer.
-constexpr double longer = 1.2;
-/// A slab ends no later than after about so many events of a rank, which have to be kept until then.
-constexpr std::uint64_t most_events = 1 << 16;
+/// Ranks have ghosts so far around the safe regions of their own bodies at first, in widths of these. More of
+/// them allow longer slabs.
+constexpr double first_margin = 3.0, least_margin = 0.5;
+/// In a slab so much is to happen to each body, which makes what a slab costs beside worth it.
+constexpr double wanted_work = 12.0;
+/// A slab that failed is tried again with this part of its duration, and with so many times the ghosts
+/// around; one that did not lets the next one have less of them.
+constexpr double shorter = 0.5, wider = 1.25, narrower = 0.97;
+/// A single rank stops after about so many events, which have to be kept until then.
+constexpr std::size_t most_events = 1 << 16;
 
 }  // namespace
 
@@ -36,7 +37,8 @@ DistributedWorld::RankEngine::RankEngine(const WorldDefinition& definition, Moti
       consensus_(communicator_),
       distribution_(communicator_, consensus_, definition_, motion),
       time_(definition.start_time),
-      arriving_(std::make_unique<WorldState>(definition)) {}
+      arriving_(std::make_unique<WorldState>(definition)),
+      margin_(first_margin) {}
 
 RankFigures DistributedWorld::RankEngine::figures() const {
   const Communicator::Traffic& traffic = communicator_.traffic();
@@ -91,13 +93,14 @@ double DistributedWorld::RankEngine::first_due() {
   return communicator_.least(first);
 }
 
-/// Returns how far around their own bodies ranks have ghosts (length).
-double DistributedWorld::RankEngine::usual_margin() {
+/// Returns how far around their regions of space ranks know bodies, if nothing makes them know more.
+Halo DistributedWorld::RankEngine::usual_halo() {
   std::array<double, 2> sums{0.0, static_cast<double>(own_.size())};
   for (const BodyRecord& record : own_)
     sums[0] += record.is_arriving ? record.body.bound.radius + facts_.first_radius : record.region_reach;
   communicator_.sum(sums);
-  return sums[1] > 0.0 ? margin_in_widths * 2.0 * sums[0] / sums[1] : 0.0;
+  const double width = sums[1] > 0.0 ? 2.0 * sums[0] / sums[1] : 0.0;
+  return {width, margin_ * width};
 }
 
 /// Returns a time in which bodies move about as far as they are apart; infinity if they all stand still.
@@ -121,34 +124,37 @@ double DistributedWorld::RankEngine::first_duration() {
 Result<bool> DistributedWorld::RankEngine::run_slab(double until, const ResponseFn* respond) {
   if (auto assigned = distribution_.assign(own_, time_); !assigned) return assigned.error();
   if (!(duration_ > 0.0)) duration_ = first_duration();
+  if (communicator_.ranks() == 1) duration_ = infinity;
   const double first = first_due();
-  double duration = duration_, margin = usual_margin(), latest = infinity;
+  double duration = duration_, latest = infinity;
+  Halo halo = usual_halo();
   for (;;) {
     ++tries_;
     const double least = just_after(first);
     Slab slab{.begin = time_, .stop = std::clamp(first + duration, least, std::max(latest, least))};
     if (facts_.spot_checks.next() > time_) slab.stop = std::min(slab.stop, facts_.spot_checks.next());
     slab.is_least = !(slab.stop > least);
-    const auto outcome = try_slab(slab, until, margin, respond);
+    const auto outcome = try_slab(slab, until, halo, respond);
     if (!outcome) return outcome.error();
     if (outcome->is_done) {
       ++slabs_;
-      duration_ = std::max(duration, 0.125 * duration_);
-      if (duration == duration_ && outcome->events <= most_events) duration_ *= longer;
-      if (outcome->events > most_events) duration_ *= shorter;
+      margin_ = std::max(margin_ * narrower, least_margin);
+      const double wanted = (time_ - first) * wanted_work / std::max(outcome->work, 0.125 * wanted_work);
+      duration_ = std::clamp(wanted, 0.5 * duration_, 2.0 * duration_);
       return !(time_ < until) && outcome->stop > until;
     }
     latest = std::min(latest, outcome->failed_at);
     duration *= shorter;
-    margin *= wider;
+    margin_ *= wider;
+    halo = {wider * halo.width, wider * halo.margin};
   }
 }
 
 /// Simulates a slab. If a rank fails, or some do not agree, all go back to the begin of the slab. Errors: of
 /// a slab that cannot be shorter, and those of exchanges.
 Result<DistributedWorld::RankEngine::Outcome> DistributedWorld::RankEngine::try_slab(
-    const Slab& slab, double until, double margin, const ResponseFn* respond) {
-  auto ghosts = distribution_.send_ghosts(own_, slab, margin);
+    const Slab& slab, double until, const Halo& halo, const ResponseFn* respond) {
+  auto ghosts = distribution_.send_ghosts(own_, slab, halo);
   if (!ghosts) return ghosts.error();
   ghosts_ = ghosts->size();
   std::vector<const BodyRecord*> records;
@@ -167,9 +173,10 @@ Result<DistributedWorld::RankEngine::Outcome> DistributedWorld::RankEngine::try_
   if (failures[0] == 0 && facts_.spot_checks.next() <= time_)
     if (auto checked = spot_check(part); !checked) return checked.error();
   const double stop = std::min(slab.stop, part.state().spot_checks.next());
-  if (failures[0] == 0) done = guarded([&] { return part.run(stop, until, respond, events); });
+  const std::size_t most = communicator_.ranks() == 1 ? most_events : std::numeric_limits<std::size_t>::max();
+  if (failures[0] == 0) done = guarded([&] { return part.run(stop, until, most, respond, events); });
   const bool grows = part.state().core->balls().any_grows();
-  std::array<std::uint64_t, 3> sums{done ? 0u : 1u, grows && !facts_.grows ? 1u : 0u, events.size()};
+  std::array<std::uint64_t, 2> sums{done ? 0u : 1u, grows && !facts_.grows ? 1u : 0u};
   communicator_.sum(sums);
   if (sums[0] > 0) {
     if (slab.is_least) return agree(done).error();
@@ -179,8 +186,8 @@ Result<DistributedWorld::RankEngine::Outcome> DistributedWorld::RankEngine::try_
   if ((sums[1] > 0 && !slab.is_least) || distribution_.count_disagreeing(part) > 0) return Outcome{};
   go_back.dismiss();
   facts_.grows = facts_.grows || sums[1] > 0;
-  commit(part, events);
-  return Outcome{.is_done = true, .stop = stop, .events = sums[2]};
+  const double work = commit(part, events);
+  return Outcome{.is_done = true, .stop = stop, .work = work};
 }
 
 /// Checks exact bodies, as World::Engine::end_epoch() does.
@@ -202,8 +209,10 @@ Result<void> DistributedWorld::RankEngine::spot_check(Part& part) {
   return {};
 }
 
-void DistributedWorld::RankEngine::commit(Part& part, std::vector<OrderedEvent>& events) {
-  part.update(own_);
+/// Takes over what a part has become. Returns how much has happened to a body, on the mean of all ranks.
+double DistributedWorld::RankEngine::commit(Part& part, std::vector<OrderedEvent>& events) {
+  std::array<std::uint64_t, 2> sums{part.update(own_), own_.size()};
+  communicator_.sum(sums);
   counters_ += part.main().work().counters;
   facts_.spot_checks = part.state().spot_checks;
   time_ = part.time();
@@ -211,6 +220,7 @@ void DistributedWorld::RankEngine::commit(Part& part, std::vector<OrderedEvent>&
     hash_.add(event.event);
     events_.push_back(event);
   }
+  return static_cast<double>(sums[0]) / static_cast<double>(std::max<std::uint64_t>(sums[1], 1));
 }
 
 /// Passes pending events to the sink. An exception thrown by the sink ends the run on all ranks.

@@ -72,18 +72,18 @@ class DistributedWorld::RankEngine {
   Result<void> check_run(double until, const PoolLease& lease) const;
   Result<void> go(double until, const ResponseFn* respond, const OrderedEventFn& sink);
   double first_due();
-  double usual_margin();
+  Halo usual_halo();
   double first_duration();
   Result<bool> run_slab(double until, const ResponseFn* respond);
   struct Outcome {
     bool is_done = false;
     double stop = 0.0;            ///< what was due before has been done
-    std::uint64_t events = 0;     ///< of all ranks
+    double work = 0.0;            ///< how much has happened to a body
     double failed_at = infinity;  ///< when the first rank failed
   };
-  Result<Outcome> try_slab(const Slab& slab, double until, double margin, const ResponseFn* respond);
+  Result<Outcome> try_slab(const Slab& slab, double until, const Halo& halo, const ResponseFn* respond);
   Result<void> spot_check(Part& part);
-  void commit(Part& part, std::vector<OrderedEvent>& events);
+  double commit(Part& part, std::vector<OrderedEvent>& events);
   void deliver(const OrderedEventFn& sink);
   Result<void> resume(const Checkpoint& common, std::vector<Checkpoint>& parts);
 
@@ -101,6 +101,7 @@ class DistributedWorld::RankEngine {
   std::unique_ptr<WorldState> arriving_;
   std::vector<std::uint32_t> arriving_in_motion_;
   double duration_ = 0.0;            ///< of the next slab (time); 0 until one has been chosen
+  double margin_;                    ///< of ghosts around own bodies (widths of safe regions)
   std::deque<OrderedEvent> events_;  ///< events to be reported
   EventHash hash_;                   ///< hash of all committed events
   Counters counters_;
