@@ -40,20 +40,17 @@ std::optional<BodyId> Overlaps::of_body(BodyId id, const CollisionShape& shape,
   return found;
 }
 
-/// Returns the new bodies that may touch anything as balls at rest, numbered by their places: in the primary
-/// box, and near it all images that may overlap one there.
+/// Returns the new bodies that may touch anything as balls at rest, numbered by their places, in all images
+/// that reach into the primary box. Two that overlap beyond a border do so in two of these images: on each
+/// axis, one of them reaches over the border.
 std::vector<Stretch> Overlaps::balls_of(std::span<const BodyDefinition> added) const {
-  const Space& space = bodies_.space();
-  double largest = 0.0;
-  for (const BodyDefinition& body : added) largest = std::max(largest, bound_now(body, now_).radius);
   std::vector<Stretch> balls;
   balls.reserve(added.size());
   for (std::uint32_t number = 0; number < added.size(); ++number) {
     if (!added[number].solid) continue;
     const Bound bound = bound_now(added[number], now_);
-    const Vec3 centre = space.wrapped(bound.centre_at(now_)).position;
-    const Vec3 half{bound.radius, bound.radius, bound.radius};
-    space.for_each_image({centre - half, centre + half}, 2.0 * largest, [&](const Box&, const Vec3& shift) {
+    const Vec3 centre = bound.centre_at(now_), half{bound.radius, bound.radius, bound.radius};
+    bodies_.space().for_each_image({centre - half, centre + half}, 0.0, [&](const Box&, const Vec3& shift) {
       balls.push_back({.number = number, .middle = centre + shift, .radius = bound.radius});
     });
   }

@@ -93,10 +93,10 @@ TEST(Overlaps, OfNewBodiesInOnePlaceAreTheFirstTwo) {
   const SmallWorld world;
   const Overlaps overlaps(world.state, 0.0);
   // So many that a look at all pairs would take minutes.
-  std::vector<BodyDefinition> added(100'000, {.radius = 0.5, .position = {1, 2, 3}});
+  std::vector<BodyDefinition> added(400'000, {.radius = 0.5, .position = {1, 2, 3}});
   EXPECT_EQ(overlaps.first_among(added), std::pair(std::size_t{0}, std::size_t{1}));
   for (std::size_t k = 0; k < added.size() / 2; ++k) added[k].position = {3.0 * static_cast<double>(k), 0, 9};
-  EXPECT_EQ(overlaps.first_among(added), std::pair(std::size_t{50'000}, std::size_t{50'001}));
+  EXPECT_EQ(overlaps.first_among(added), std::pair(std::size_t{200'000}, std::size_t{200'001}));
   for (BodyDefinition& body : added) body.solid = false;
   EXPECT_EQ(overlaps.first_among(added), std::nullopt) << "they touch nothing";
 }

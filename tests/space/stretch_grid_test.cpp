@@ -118,6 +118,35 @@ TEST(StretchGrid, FindsAllThatTouch) {
   }
 }
 
+// Pairs that only just touch, at a time within or at an end of their way, far from each other.
+TEST(StretchGrid, FindsThoseThatHardlyTouch) {
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  for (const double way : {0.0, 1e-12, 1.0, 500.0}) {
+    std::vector<Stretch> stretches;
+    for (std::uint32_t number = 0; number < 2000; number += 2) {
+      const Stretch a{.number = number,
+                      .middle = 1000.0 * random.point_in_ball(),
+                      .half_way = way * random.point_in_ball(),
+                      .radius = random.uniform()};
+      Stretch b{.number = number + 1, .half_way = way * random.point_in_ball(), .radius = random.uniform()};
+      const Vec3 relative = b.half_way - a.half_way;
+      // Nearest at this time: across the relative way, or along it at its end.
+      const double s = std::clamp(random.uniform(-1.5, 1.5), -1.0, 1.0);
+      const Vec3 across = cross(relative, random.point_in_ball());
+      Vec3 apart = std::abs(s) < 1.0 ? across : -s * relative;
+      if (!(norm(apart) > 0.0)) apart = random.point_in_ball();
+      apart = apart * ((a.radius + b.radius) * (1.0 - 1e-9) / norm(apart));
+      b.middle = a.middle + apart - relative * s;
+      ASSERT_LE(least_distance(a, b), a.radius + b.radius);
+      stretches.insert(stretches.end(), {a, b});
+    }
+    const Pairs found = found_among(stretches);
+    for (std::uint32_t number = 0; number < 2000; number += 2)
+      EXPECT_TRUE(found.contains({number, number + 1})) << way << ' ' << number;
+  }
+}
+
 TEST(StretchGrid, FindsTheSameWithAllWidthsOfVectors) {
   SCOPED_TRACE(seed);
   for (const Kind& kind : kinds) {
