@@ -89,6 +89,15 @@ TEST(Overlaps, OfNewBodiesOfAllSizesAreFoundInAllImages) {
   EXPECT_LT(found, 300);
 }
 
+TEST(Overlaps, OfANewBodyAndItsImageAreNone) {
+  // The world is so long that the grid cannot tell the image from the body.
+  const SmallWorld world({.box = Box{{-10, -1e9, -10}, {10, 1e9, 10}}, .periodic = {.x = true}});
+  std::vector<BodyDefinition> added(3, {.radius = 3});
+  for (std::size_t k = 0; k < added.size(); ++k)
+    added[k].position = {-9, -9e8 + 9e8 * static_cast<double>(k), 0};
+  EXPECT_EQ(Overlaps(world.state, 0.0).first_among(added), std::nullopt);
+}
+
 TEST(Overlaps, OfNewBodiesInOnePlaceAreTheFirstTwo) {
   const SmallWorld world;
   const Overlaps overlaps(world.state, 0.0);
