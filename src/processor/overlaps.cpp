@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "broadphase/neighbour_search.hpp"
 #include "processor/bodies_in.hpp"
 
 namespace kinesphere {
@@ -41,31 +40,42 @@ std::optional<BodyId> Overlaps::of_body(BodyId id, const CollisionShape& shape,
   return found;
 }
 
+/// Returns the new bodies that may touch anything as balls at rest, numbered by their places, in all images
+/// that reach into the primary box. Two that overlap beyond a border do so in two of these images: on each
+/// axis, one of them reaches over the border.
+std::vector<Stretch> Overlaps::balls_of(std::span<const BodyDefinition> added) const {
+  std::vector<Stretch> balls;
+  balls.reserve(added.size());
+  for (std::uint32_t number = 0; number < added.size(); ++number) {
+    if (!added[number].solid) continue;
+    const Bound bound = bound_now(added[number], now_);
+    const Vec3 centre = bound.centre_at(now_), half{bound.radius, bound.radius, bound.radius};
+    bodies_.space().for_each_image({centre - half, centre + half}, 0.0, [&](const Box&, const Vec3& shift) {
+      balls.push_back({.number = number, .middle = centre + shift, .radius = bound.radius});
+    });
+  }
+  return balls;
+}
+
 std::optional<std::pair<std::size_t, std::size_t>> Overlaps::first_among(
     std::span<const BodyDefinition> added) const {
-  const auto ball_of = [&](std::uint32_t number) {
-    const Bound bound = bound_now(added[number], now_);
-    const Vec3 centre = bodies_.space().wrapped(bound.centre_at(now_)).position;
-    const Bound ball{.time = now_, .position = centre, .radius = bound.radius};
-    return InflatedBound{BoundAt(ball, now_), bodies_.definition().contact_tolerance};
-  };
-  BroadPhase windows(bodies_.space());
-  std::vector<BroadPhase::Starter> starters;
-  starters.reserve(added.size());
-  for (std::uint32_t number = 0; number < added.size(); ++number)
-    starters.push_back(
-        {number, SizeClasses::size_class_of(ball_of(number), Window::endless()), Window::endless()});
-  PoolLease alone;
-  windows.start(starters, now_, ball_of, alone);
+  StretchGrid grid;
+  grid.fill(balls_of(added));
   std::optional<std::pair<std::size_t, std::size_t>> least;
-  NeighbourSearch search;
-  for (const auto& [a, b] : search.near_started(windows, 0, windows.started_slots(), now_, ball_of)) {
+  const auto look_at = [&](std::uint32_t a, std::uint32_t b) {
     const auto [first, second] = std::minmax({a, b});
-    if (least && std::tie(least->second, least->first) <= std::tie(second, first)) continue;
+    if (first == second) return;
+    if (least && std::tie(least->second, least->first) <= std::tie(second, first)) return;
     if (certainly_overlap(bodies_, now_, {bound_now(added[first], now_)}, {bound_now(added[second], now_)}) &&
         bodies_.filters.may_touch(bodies_.table().next_id(first), added[first],
                                   bodies_.table().next_id(second), added[second]))
       least = {first, second};
+  };
+  for (std::uint32_t slot = 0; slot < grid.slots(); ++slot) {
+    const std::uint32_t number = grid.number_at(slot);
+    // Of a crowd, most bodies come after its first pair, and are not searched for.
+    if (least && number > least->second) continue;
+    for (const std::uint32_t other : grid.search_behind(slot)) look_at(number, grid.number_at(other));
   }
   return least;
 }

@@ -49,10 +49,10 @@ TEST(NearPairs, AreAllThatComeNear) {
       path.radius = random.uniform() < 0.1 ? -1.0 : 0.1 * random.uniform();
     }
     const double distance = 0.5;
-    NearPairs all(distance, 30.0, std::nullopt);
+    NearPairs all(distance, std::nullopt);
     const Pairs found = found_in(all, paths);
     EXPECT_GT(all.work(), 0.0);
-    NearPairs of_one(distance, 30.0, 7);
+    NearPairs of_one(distance, 7);
     const Pairs of_seven = found_in(of_one, paths);
     for (std::uint32_t a = 0; a < 120; ++a)
       for (std::uint32_t b = a + 1; b < 120; ++b) {

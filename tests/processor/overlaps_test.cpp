@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "kinesphere/random.hpp"
 #include "support/small_world.hpp"
@@ -43,6 +46,78 @@ TEST(Overlaps, OfNewBodiesAreTheFirstPairInOrder) {
   }
   EXPECT_GT(found, 20);
   EXPECT_LT(found, 195);
+}
+
+/// Returns the first pair of these bodies that overlaps in any image, by a plain look at each pair.
+std::optional<std::pair<std::size_t, std::size_t>> first_of(const std::vector<BodyDefinition>& added,
+                                                            const Vec3& period) {
+  for (std::size_t b = 0; b < added.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a) {
+      Vec3 way = added[b].position - added[a].position;
+      for (int axis = 0; axis < 3; ++axis)
+        if (period[axis] > 0.0) way[axis] = std::remainder(way[axis], period[axis]);
+      if (norm(way) < added[a].radius + added[b].radius - 1e-6) return {{a, b}};
+    }
+  return std::nullopt;
+}
+
+TEST(Overlaps, OfNewBodiesOfAllSizesAreFoundInAllImages) {
+  SCOPED_TRACE(seed);
+  int found = 0, across = 0;
+  for (std::uint64_t k = 0; k < 300; ++k) {
+    Random random = Random::at(seed, k, 7);
+    const bool in_y = random.uniform() < 0.5, in_z = random.uniform() < 0.5;
+    const SmallWorld world(
+        {.box = Box{{-10, -10, -10}, {10, 20, 30}}, .periodic = {.x = true, .y = in_y, .z = in_z}});
+    const Vec3 period{20, in_y ? 30.0 : 0.0, in_z ? 40.0 : 0.0};
+    std::vector<BodyDefinition> added(40);
+    for (BodyDefinition& ball : added) {
+      ball.radius = 3.0 * std::exp2(-20.0 * random.uniform());
+      // Near the corner where eight boxes meet, and some of them periods away.
+      ball.position = Vec3{-10, -10, -10} + 6.0 * random.point_in_ball();
+      for (int axis = 0; axis < 3; ++axis)
+        if (period[axis] > 0.0) ball.position[axis] += period[axis] * std::floor(random.uniform(-2.0, 2.0));
+    }
+    const auto expected = first_of(added, period);
+    EXPECT_EQ(Overlaps(world.state, 0.0).first_among(added), expected) << k;
+    if (!expected) continue;
+    ++found;
+    if (first_of(added, {}) != expected) ++across;
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_GT(across, 50);
+  EXPECT_LT(found, 300);
+}
+
+TEST(Overlaps, OfANewBodyAndItsImageAreNone) {
+  // The world is so long that the grid cannot tell the image from the body.
+  const SmallWorld world({.box = Box{{-10, -1e9, -10}, {10, 1e9, 10}}, .periodic = {.x = true}});
+  std::vector<BodyDefinition> added(3, {.radius = 3});
+  for (std::size_t k = 0; k < added.size(); ++k)
+    added[k].position = {-9, -9e8 + 9e8 * static_cast<double>(k), 0};
+  EXPECT_EQ(Overlaps(world.state, 0.0).first_among(added), std::nullopt);
+}
+
+TEST(Overlaps, OfNewBodiesInOnePlaceAreTheFirstTwo) {
+  const SmallWorld world;
+  const Overlaps overlaps(world.state, 0.0);
+  // So many that a look at all pairs would take minutes.
+  std::vector<BodyDefinition> added(400'000, {.radius = 0.5, .position = {1, 2, 3}});
+  EXPECT_EQ(overlaps.first_among(added), std::pair(std::size_t{0}, std::size_t{1}));
+  for (std::size_t k = 0; k < added.size() / 2; ++k) added[k].position = {3.0 * static_cast<double>(k), 0, 9};
+  EXPECT_EQ(overlaps.first_among(added), std::pair(std::size_t{200'000}, std::size_t{200'001}));
+  for (BodyDefinition& body : added) body.solid = false;
+  EXPECT_EQ(overlaps.first_among(added), std::nullopt) << "they touch nothing";
+}
+
+TEST(Overlaps, OfNewBodiesAreThoseThatMayTouch) {
+  const SmallWorld world;
+  const Overlaps overlaps(world.state, 0.0);
+  std::vector<BodyDefinition> added(4, {.radius = 0.5});
+  added[0].filter = {.category = 2, .mask = 2};
+  added[1].solid = false;
+  added[2].filter = added[3].filter = {.category = 4, .mask = 4};
+  EXPECT_EQ(overlaps.first_among(added), std::pair(std::size_t{2}, std::size_t{3}));
 }
 
 TEST(Overlaps, OfABodyAreThoseWithTheOthersThatAreThere) {

@@ -48,7 +48,7 @@ struct StepSearch {
   NearPairs pairs;
 
   StepSearch(const ArcTable& arcs, double distance, const Approaches::Options& options)
-      : paths(arcs), pairs(distance, std::max(arcs.extent(), distance), options.body) {}
+      : paths(arcs), pairs(distance, options.body) {}
 };
 
 class Search {

@@ -131,20 +131,18 @@ ArcTable::ArcTable(const PolynomialPaths& paths, PoolLease& lease)
   for (std::size_t body = 0; body <= paths.body_count(); ++body)
     firsts_.push_back(static_cast<std::size_t>(
         std::lower_bound(paths.bodies.begin(), paths.bodies.end(), body) - paths.bodies.begin()));
-  std::vector<double> extents(lease.count()), speeds(lease.count());
+  std::vector<double> speeds(lease.count());
   lease.for_each(bodies(), 16, [&](std::size_t body, std::size_t worker) {
     double rounding = 0.0;
     for (std::size_t arc = first_of(body); arc < first_of(body + 1); ++arc) {
       const ArcBounds bounds = bounds_of(paths, arc);
       jerks_[arc] = bounds.jerk;
-      extents[worker] = std::max(extents[worker], bounds.size);
       speeds[worker] = std::max(speeds[worker], bounds.speed);
       const double time = std::max(std::abs(begin(arc)), std::abs(end(arc)));
       rounding = std::max(rounding, 0x1p-44 * bounds.size + 0x1p-48 * time * bounds.speed);
     }
     errors_[body] = declared_error(body) + rounding;
   });
-  extent_ = *std::max_element(extents.begin(), extents.end());
   largest_speed_ = *std::max_element(speeds.begin(), speeds.end());
 }
 

@@ -78,8 +78,6 @@ class ArcTable {
   /// How far the body may be from what positions_at() returns: its declared error, and rounding.
   double error(std::size_t body) const { return errors_[body]; }
   double declared_error(std::size_t body) const { return paths_.errors.empty() ? 0.0 : paths_.errors[body]; }
-  /// Largest coordinate of any path (an upper bound).
-  double extent() const { return extent_; }
   /// Largest component of any velocity (an upper bound).
   double largest_speed() const { return largest_speed_; }
 
@@ -88,7 +86,7 @@ class ArcTable {
   std::vector<std::size_t> firsts_;
   std::vector<double> jerks_;
   std::vector<double> errors_;
-  double extent_ = 0.0, largest_speed_ = 0.0;
+  double largest_speed_ = 0.0;
 };
 
 }  // namespace kinesphere

@@ -1,33 +1,27 @@
 #include "paths/near_pairs.hpp"
 
 #include <algorithm>
-#include <functional>
-
-#include "number/powers.hpp"
 
 namespace kinesphere {
 namespace {
 
 /// Measured on the catalogue of satellites (docs/satellites.md), in nanoseconds: a body's path in a step and
-/// its place in the grid, a vector of swept spheres that is read, a pair that is compared, and one that is
-/// followed along its arcs.
-constexpr double cost_of_body = 150.0, cost_of_vector = 5.0, cost_of_comparison = 15.0, cost_of_pair = 4000.0;
+/// its place in the grid, a slot that is compared, a pair that is found, and one that is followed along its
+/// arcs.
+constexpr double cost_of_body = 150.0, cost_of_slot = 0.5, cost_of_found = 15.0, cost_of_pair = 4000.0;
 
-SweptSphereFrame frame_around(double extent) {
-  return {.per_length = power_of_two(-std::clamp(exponent_of(extent), -1000, 1000))};
-}
-
-SweptSphere swept_sphere_of(const StepPath& path, double distance, const SweptSphereFrame& frame) {
+/// Returns a stretch that contains the path, with half the distance around it.
+Stretch stretch_of(std::uint32_t body, const StepPath& path, double distance) {
   const Vec3 half = 0.5 * path.bend;
-  const Bound bound{
-      .position = path.begin + half, .velocity = path.end - path.begin, .radius = path.radius + norm(half)};
-  return swept_sphere_of(BoundAt(bound, 0.0), 0.0, 1.0, 0.5 * distance, frame);
+  return {.number = body,
+          .middle = 0.5 * (path.begin + path.end) + half,
+          .half_way = 0.5 * (path.end - path.begin),
+          .radius = path.radius + norm(half) + 0.5 * distance};
 }
 
 }  // namespace
 
-NearPairs::NearPairs(double distance, double extent, std::optional<std::uint32_t> only)
-    : distance_(distance), only_(only), grid_(frame_around(extent)) {}
+NearPairs::NearPairs(double distance, std::optional<std::uint32_t> only) : distance_(distance), only_(only) {}
 
 /// Along the chord of the pair's relative path, in the middle between it and its parabola.
 bool NearPairs::may_meet(const StepPath& a, const StepPath& b) const {
@@ -50,67 +44,23 @@ void NearPairs::find_of_one(std::span<const StepPath> paths) {
   work_ += cost_of_pair * static_cast<double>(found_.size());
 }
 
-/// Moves the few bodies whose swept spheres are far wider than all others from spheres_ to widest_: cells as
-/// wide as they are would hold too many of the others.
-void NearPairs::set_widest_apart(std::span<const StepPath> paths) {
-  constexpr std::size_t few = 16;
-  constexpr float far_wider = 4.0f;
-  const auto width = [](const SweptSphere& sphere) { return float_aabb_of(sphere, 0.0f, 1.0f).widest(); };
-  widest_.clear();
-  widths_.clear();
-  if (spheres_.spheres.size() <= 4 * few) return;
-  for (const SweptSphere& sphere : spheres_.spheres) widths_.push_back(width(sphere));
-  std::nth_element(widths_.begin(), widths_.begin() + few, widths_.end(), std::greater<>());
-  if (!(*std::max_element(widths_.begin(), widths_.begin() + few) > far_wider * widths_[few])) return;
-  const float limit = far_wider * widths_[few];
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < spheres_.spheres.size(); ++k) {
-    if (width(spheres_.spheres[k]) > limit) {
-      widest_.push_back(spheres_.numbers[k]);
-    } else {
-      spheres_.numbers[kept] = spheres_.numbers[k];
-      spheres_.spheres[kept++] = spheres_.spheres[k];
+void NearPairs::find_of_all(std::span<const StepPath> paths) {
+  stretches_.clear();
+  for (std::uint32_t body = 0; body < paths.size(); ++body)
+    if (paths[body].exists()) stretches_.push_back(stretch_of(body, paths[body], distance_));
+  grid_.fill(stretches_);
+  std::size_t count = 0;
+  for (std::uint32_t slot = 0; slot < grid_.slots(); ++slot) {
+    const std::uint32_t body = grid_.number_at(slot);
+    const std::span<const std::uint32_t> candidates = grid_.search_behind(slot);
+    count += candidates.size();
+    for (const std::uint32_t behind : candidates) {
+      const std::uint32_t other = grid_.number_at(behind);
+      if (may_meet(paths[body], paths[other])) found_.push_back({body, other});
     }
   }
-  spheres_.numbers.resize(kept);
-  spheres_.spheres.resize(kept);
-  for (std::size_t k = 0; k < widest_.size(); ++k) {
-    const auto compare = [&](std::uint32_t other) {
-      if (may_meet(paths[widest_[k]], paths[other])) found_.push_back({widest_[k], other});
-    };
-    std::for_each(spheres_.numbers.begin(), spheres_.numbers.end(), compare);
-    std::for_each(widest_.begin() + static_cast<std::ptrdiff_t>(k) + 1, widest_.end(), compare);
-  }
-}
-
-void NearPairs::find_of_all(std::span<const StepPath> paths) {
-  constexpr std::uint32_t searches_at_once = 32;
-  spheres_.numbers.clear();
-  spheres_.spheres.clear();
-  for (std::uint32_t body = 0; body < paths.size(); ++body) {
-    if (!paths[body].exists()) continue;
-    spheres_.numbers.push_back(body);
-    spheres_.spheres.push_back(swept_sphere_of(paths[body], distance_, grid_.frame()));
-  }
-  set_widest_apart(paths);
-  PoolLease alone;
-  grid_.fill(spheres_, alone, [](std::uint32_t, std::uint32_t) {});
-  const SweptSphereTable& table = grid_.table();
-  std::size_t vectors = 0, compared = widest_.size() * spheres_.numbers.size();
-  for (std::uint32_t slot = 0; slot < table.slots(); slot += searches_at_once) {
-    searches_.clear();
-    for (std::uint32_t k = slot; k < std::min(slot + searches_at_once, table.slots()); ++k)
-      grid_.add_search_behind(k, searches_);
-    grid_.make(searches_);
-    for (const SlotRange& range : searches_.ranges) vectors += 1 + (range.end - range.begin) / search_lanes;
-    searches_.for_each_found([&](std::uint32_t query, std::uint32_t other) {
-      const Pair pair{table.number_at(slot + query), table.number_at(other)};
-      ++compared;
-      if (may_meet(paths[pair.a], paths[pair.b])) found_.push_back(pair);
-    });
-  }
-  work_ = cost_of_body * static_cast<double>(paths.size()) + cost_of_vector * static_cast<double>(vectors) +
-          cost_of_comparison * static_cast<double>(compared) +
+  work_ = cost_of_body * static_cast<double>(paths.size()) +
+          cost_of_slot * static_cast<double>(grid_.compared()) + cost_of_found * static_cast<double>(count) +
           cost_of_pair * static_cast<double>(found_.size());
 }
 

@@ -6,15 +6,15 @@
 #include <span>
 #include <vector>
 
-#include "broadphase/swept_sphere_grid.hpp"
 #include "paths/step_paths.hpp"
+#include "space/stretch_grid.hpp"
 
 namespace kinesphere {
 
 class NearPairs {
  public:
-  /// `extent`: bound on all coordinates. With `only`, pairs of that body alone are found.
-  NearPairs(double distance, double extent, std::optional<std::uint32_t> only);
+  /// With `only`, pairs of that body alone are found.
+  NearPairs(double distance, std::optional<std::uint32_t> only);
 
   /// Calls visit(first, second), first < second, for each pair that may come within the distance.
   template <class Visit>
@@ -35,17 +35,13 @@ class NearPairs {
     std::uint32_t a, b;
   };
   void find_of_one(std::span<const StepPath> paths);
-  void set_widest_apart(std::span<const StepPath> paths);
   void find_of_all(std::span<const StepPath> paths);
   bool may_meet(const StepPath& a, const StepPath& b) const;
 
   double distance_;
   std::optional<std::uint32_t> only_;
-  SweptSphereGrid grid_;
-  UnsortedSweptSpheres spheres_;
-  std::vector<float> widths_;
-  std::vector<std::uint32_t> widest_;  ///< bodies that are not in the grid
-  SweptSphereSearches searches_;
+  StretchGrid grid_;
+  std::vector<Stretch> stretches_;
   std::vector<Pair> found_;
   double work_ = 0.0;
 };
