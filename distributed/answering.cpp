@@ -18,7 +18,7 @@ void RankSource::set_origin(BodyId body, const MotionOrigin& origin) {
   motion_.set_origin(in_motion_[body.world], origin).value();
 }
 
-Result<Response> RankResponder::respond(const Event& event) {
+Result<Response> RankResponder::respond(const Event& event) const {
   const Response answer = respond_(event);
   if (auto valid = check(event, answer); !valid) return valid.error();
   return answer;

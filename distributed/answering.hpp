@@ -8,7 +8,7 @@
 #include "bodies/bodies.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/run.hpp"
-#include "processor/response_handler.hpp"
+#include "processor/responses.hpp"
 
 namespace kinesphere {
 
@@ -30,17 +30,15 @@ class RankSource final : public MotionSource {
 
 /// Calls `respond` and validates the response. Errors: unknown_body for a velocity of a body that is not part
 /// of the event; those of check_velocity() and check_spin(); unsupported for an action or a stop.
-class RankResponder final : public ResponseHandler {
+class RankResponder {
  public:
   RankResponder(const ResponseFn& respond, MotionSource& source, const Bodies& bodies)
       : respond_(respond), source_(source), bodies_(bodies) {}
 
-  Result<Response> respond(const Event& event) override;
-  Result<void> apply(const Event& event, const Response& answer) override {
+  Result<Response> respond(const Event& event) const;
+  Result<void> apply(const Event& event, const Response& answer) const {
     return apply_response(source_, bodies_.definition(), event, answer);
   }
-  MotionOrigin origin(BodyId body) override { return source_.origin(body); }
-  void set_origin(BodyId body, const MotionOrigin& origin) override { source_.set_origin(body, origin); }
 
  private:
   Result<void> check(const Event& event, const Response& answer) const;

@@ -94,7 +94,7 @@ std::uint32_t DistributedWorld::RankEngine::insert(std::uint32_t name, const Bod
   const std::uint32_t number = bodies.add_named(body, time(), name);
   bodies[number].bound = bound_now(body, time());
   bodies[number].relocated = bodies[number].dirty = true;
-  if (bodies.space().repeats()) bodies.wrap_to_primary(number, time(), 0.0);
+  if (bodies.space().repeats()) bodies.wrap_to_primary(number, time());
   arriving_->contacts.add(number, bodies.largest_acceleration(number));
   arriving_in_motion_.push_back(number_in_motion);
   names_.add(name);

@@ -24,13 +24,12 @@ Part::Part(const WorldDefinition& definition, const SensorTable& sensors, const 
   state_.bodies.sensors = sensors;
   state_.spot_checks = facts.spot_checks;
   if (facts.has_shapes) state_.bodies.rigid.note_elsewhere();
-  state_.core.emplace(definition);
   main_.advance_clock(time);
   in_motion_.reserve(records.size());
   owners_.reserve(records.size());
   for (const BodyRecord* const record : records) install(*record);
   for (std::uint32_t number = 0; number < numbers(); ++number) link(number, *records[number]);
-  state_.core->be_part(ghosts_, facts.first_radius, facts.grows, facts.drifts);
+  state_.core.be_part(ghosts_, facts.first_radius, facts.grows, facts.drifts);
 }
 
 void Part::install(const BodyRecord& record) {
@@ -59,7 +58,7 @@ void Part::link(std::uint32_t number, const BodyRecord& record) {
   for (const auto& [name, until] : record.times)
     if (const auto other = numbers_.find(name))
       main_.pair_times().keep(state_.bodies, number, *other, until, time());
-  if (!record.is_arriving) state_.core->adopt(number, numbered(number, record));
+  if (!record.is_arriving) state_.core.adopt(number, numbered(number, record));
 }
 
 /// Returns what the core knows of a body, with numbers in place of names. A body that is due about one that
@@ -78,11 +77,11 @@ BodyRecord Part::record_of(std::uint32_t number) const {
   BodyRecord record = kinesphere::record_of(state_.bodies, state_.contacts, number);
   record.owner = owners_[number];
   record.in_motion = in_motion_[number];
-  record.core = state_.core->record_of(number);
+  record.core = state_.core.record_of(number);
   for (std::uint32_t& neighbour : record.core.neighbours) neighbour = name_of(neighbour);
   if (record.core.ball.about != core::none) record.core.ball.about = name_of(record.core.ball.about);
-  record.region_centre = state_.core->region_centre(number);
-  record.region_reach = state_.core->region_reach(number);
+  record.region_centre = state_.core.region_centre(number);
+  record.region_reach = state_.core.region_reach(number);
   return record;
 }
 

@@ -175,7 +175,7 @@ Result<DistributedWorld::RankEngine::Outcome> DistributedWorld::RankEngine::try_
   const double stop = std::min(slab.stop, part.state().spot_checks.next());
   const std::size_t most = communicator_.ranks() == 1 ? most_events : std::numeric_limits<std::size_t>::max();
   if (failures[0] == 0) done = guarded([&] { return part.run(stop, until, most, respond, events); });
-  const bool grows = part.state().core->balls().any_grows();
+  const bool grows = part.state().core.balls().any_grows();
   std::array<std::uint64_t, 2> sums{done ? 0u : 1u, grows && !facts_.grows ? 1u : 0u};
   communicator_.sum(sums);
   if (sums[0] > 0) {
@@ -193,16 +193,15 @@ Result<DistributedWorld::RankEngine::Outcome> DistributedWorld::RankEngine::try_
 /// Checks exact bodies, as World::Engine::end_epoch() does.
 Result<void> DistributedWorld::RankEngine::spot_check(Part& part) {
   EventProcessor& main = part.main();
-  const auto own_probes = [&] { return counters_.probes + main.work().counters.probes; };
+  const auto own_probes = [&] { return counters_.probes + main.counters().probes; };
   const std::uint64_t probes = communicator_.sum(own_probes());
   std::vector<std::uint32_t> all(part.numbers());
   std::iota(all.begin(), all.end(), 0u);
-  PoolLease alone;
-  const auto here = guarded([&] { return main.spot_check_due(all, probes, alone); });
+  const auto here = guarded([&] { return main.spot_check_due(all, probes); });
   if (auto agreed = agree(here ? Result<void>() : here.error()); !agreed) return agreed;
   std::array<std::uint64_t, 3> sums{here->any, here->moving, own_probes()};
   communicator_.sum(sums);
-  core::StayCounts stays = part.state().core->count_stays();
+  core::StayCounts stays = part.state().core.count_stays();
   communicator_.sum(stays.counts());
   const SpotChecks::Census census{sums[0] > 0, sums[1], communicator_.least(here->least_time)};
   part.state().spot_checks.note_check(stays.median(), time_, census, sums[2]);
@@ -213,7 +212,7 @@ Result<void> DistributedWorld::RankEngine::spot_check(Part& part) {
 double DistributedWorld::RankEngine::commit(Part& part, std::vector<OrderedEvent>& events) {
   std::array<std::uint64_t, 2> sums{part.update(own_), own_.size()};
   communicator_.sum(sums);
-  counters_ += part.main().work().counters;
+  counters_ += part.main().counters();
   facts_.spot_checks = part.state().spot_checks;
   time_ = part.time();
   for (const OrderedEvent& event : events) {

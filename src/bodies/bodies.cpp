@@ -107,16 +107,14 @@ Change& Bodies::change_of(std::uint32_t number) {
   return changes.add(body, {number, std::nullopt, motion_limits_of(definition_of(number))});
 }
 
-void Bodies::wrap_to_primary(std::uint32_t number, double now, double length) {
+void Bodies::wrap_to_primary(std::uint32_t number, double now) {
   Body& body = table_[number];
-  // The centre of a box is rounded and can lie on the other side of the border. The centre of a static ball
-  // was wrapped when the ball was added.
+  // The centre of a static ball was wrapped when the ball was added.
   if (body.is_static()) {
     images[number] = {.middle = body.bound.position};
     return;
   }
-  const Box way = inflated_bound(*this, number, now).box_of_way(length);
-  body.bound.position -= images[number].wrap(space_, way);
+  body.bound.position -= images[number].wrap(space_, body.bound.centre_at(now));
 }
 
 }  // namespace kinesphere

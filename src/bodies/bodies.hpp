@@ -120,9 +120,8 @@ class Bodies {
   void count_images_anew(std::uint32_t number) {
     if (space_.repeats()) images[number].image = {};
   }
-  /// Moves the body to the image in which the centre of its path during `length` lies in the primary box.
-  /// Requires periodic space.
-  void wrap_to_primary(std::uint32_t number, double now, double length);
+  /// Moves the body to the image in which it lies in the primary box. Requires periodic space.
+  void wrap_to_primary(std::uint32_t number, double now);
 
   /// A copy of a body, to be restored later. Precondition: the body has no pending change.
   struct Checkpoint {

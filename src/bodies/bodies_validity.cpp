@@ -83,7 +83,7 @@ bool Bodies::bodies_are_valid(double now, const std::vector<std::uint32_t>& dirt
 bool Bodies::is_valid(std::uint32_t number, double now) const {
   const Body& body = table_[number];
   if (body.is_static()) return is_valid_static(number, now);
-  if (body.visited || !sleep_is_valid(body)) return false;
+  if (!sleep_is_valid(body)) return false;
   // A free number has the state that its next body starts with.
   if (!body.alive) return !body.dirty && body.change_number == Body::none;
   WorldDefinition unbounded = definition_;
@@ -133,7 +133,7 @@ bool Bodies::is_valid_static(std::uint32_t number, double now) const {
   const BodyDefinition made = body_of(static_definition(*this, id_of(number)));
   return same(definition_of(number), made) &&
          same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= now &&
-         body.bound.time >= -limits::largest_time && !body.visited && body.change_number == Body::none &&
+         body.bound.time >= -limits::largest_time && body.change_number == Body::none &&
          !body.is_sleeping() && !(body.dirty && !body.enabled);
 }
 

@@ -18,15 +18,13 @@ struct Body {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   Bound bound{};  ///< bound of the position since the last report
-  /// Incremented when all certificates of the body are invalidated (PairCertificate).
+  /// Incremented when what is known of the pairs of the body holds no longer (PairTimes).
   std::uint32_t revision = 0;
 
   bool alive = false;
   bool enabled = true;
-  bool dirty = false;    ///< listed for recertification before time advances
-  bool visited = false;  ///< visited mark used inside a search; false between calls
-  /// Added, teleported, enabled or refiltered since the last window start; eligible for the bulk restart.
-  bool relocated = false;
+  bool dirty = false;      ///< listed for recertification before time advances
+  bool relocated = false;  ///< added, teleported, enabled or refiltered since it was recertified
   // Fields of BodyDefinition.
   bool solid = true;
   ContactEvents contact_events = ContactEvents::all;  ///< 0 for a static body, which asks for nothing
@@ -59,7 +57,7 @@ struct Body {
     bound.velocity = bound.planned_acceleration = {};
     bound.growth_speed = bound.acceleration_limit = 0.0;
   }
-  void mark_visited() { dirty = visited = relocated = false; }
+  void mark_recertified() { dirty = relocated = false; }
   /// Returns true if the state at `time` is known without a probe: no change waits for a report.
   bool fresh(double time) const {
     return (bound.time == time || is_static() || is_sleeping()) && change_number == none;
@@ -67,10 +65,10 @@ struct Body {
   double largest_acceleration() const { return bound.acceleration_limit + norm(bound.planned_acceleration); }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [bound, revision, alive, enabled, dirty, visited, relocated, solid, contact_events, sensor_class,
+    auto& [bound, revision, alive, enabled, dirty, relocated, solid, contact_events, sensor_class,
            carries_shape, is_rigid, shape_number, change_number, generation, sleep_number, radius,
            position_error, user_data] = self;
-    archive(bound, revision, alive, enabled, dirty, visited, relocated, solid, contact_events, sensor_class,
+    archive(bound, revision, alive, enabled, dirty, relocated, solid, contact_events, sensor_class,
             carries_shape, is_rigid, shape_number, change_number, generation, sleep_number, radius,
             position_error, user_data);
   }

@@ -87,16 +87,15 @@ Box box_of_static(const Bodies& bodies, std::uint32_t number) {
   return bodies.space().within({box.lower - margin, box.upper + margin});
 }
 
-InflatedBound inflated_bound(const Bodies& bodies, std::uint32_t number, double now) {
-  const Body& body = bodies[number];
-  if (!body.is_static()) return margin_for(bodies, number, BoundAt(body.bound, now));
-  Bound ball = body.bound;
+Bound ball_around_static(const Bodies& bodies, std::uint32_t number, double now) {
+  Bound ball{.time = now, .position = bodies[number].bound.position, .radius = bodies[number].bound.radius};
   if (const Shape* shape = collision_shape_of(bodies, number).shape) {
     const Box box = bodies.space().within(cut_box(bodies, *shape));
     ball.position = 0.5 * (box.lower + box.upper);
     ball.radius = norm(0.5 * (box.upper - box.lower));
   }
-  return margin_for(bodies, number, BoundAt(ball, now));
+  ball.radius += sensor_reach(bodies, number) + bodies.definition().contact_tolerance;
+  return ball;
 }
 
 }  // namespace kinesphere

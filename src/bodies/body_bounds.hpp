@@ -8,8 +8,6 @@
 #include "bodies/bodies.hpp"
 #include "bodies/collision_shape.hpp"
 #include "bound/quick_reject.hpp"
-#include "broadphase/inflated_bound.hpp"
-#include "broadphase/window_policy.hpp"
 
 namespace kinesphere {
 
@@ -38,12 +36,12 @@ inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t num
 inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t number) {
   return collision_shape_of(bodies, number, bodies[number].bound);
 }
-/// Returns the shift that moves body b to the image in which body a may meet it while both windows last.
-/// Requires periodic space.
+/// Returns the shift that moves body b to the image in which body a may meet it while both are in their safe
+/// regions. Requires periodic space.
 inline Vec3 shift_to_meet(const Bodies& bodies, std::uint32_t a, std::uint32_t b) {
   return bodies.space().shift_between_images(bodies.images[b].middle, bodies.images[a].middle);
 }
-/// Calls visit_shapes() for two bodies, in the image in which they may meet before the earlier window end.
+/// Calls visit_shapes() for two bodies, in the image in which they may meet.
 /// Worlds without shapes and without periodic space take the shortest path.
 template <class Visit>
 auto visit_pair(const Bodies& bodies, std::uint32_t a, std::uint32_t b, Visit visit) {
@@ -90,19 +88,8 @@ inline double reach_of_pair(const Bodies& bodies, std::uint32_t a, std::uint32_t
   return bodies.sensors.any() ? std::max(sensor_reach(bodies, a), sensor_reach(bodies, b)) : 0.0;
 }
 
-// Inflated bounds, from which windows are chosen.
-/// Returns the body's bound with the margin (length) in which it can touch or sense others.
-InflatedBound inflated_bound(const Bodies& bodies, std::uint32_t number, double now);
-/// Returns the inflated bound for another bound of a body that is not static.
-inline InflatedBound margin_for(const Bodies& bodies, std::uint32_t number, const BoundAt& bound) {
-  return {bound, sensor_reach(bodies, number) + bodies.definition().contact_tolerance};
-}
-inline SpeedBound speed_bound_of(const BoundAt& moved) {
-  return {norm(moved.velocity) + moved.speed, moved.growth + norm(moved.acceleration)};
-}
-/// Returns the largest distance (length) that a body may travel between reports; beyond it, rounding would
-/// make its position inaccurate.
-inline double longest_way(const WorldDefinition& world) { return 0x1p40 * world.contact_tolerance; }
+/// Returns the ball around a static body now, with the margin (length) in which others touch or sense it.
+Bound ball_around_static(const Bodies& bodies, std::uint32_t number, double now);
 /// Returns a margin (length) that exceeds the rounding errors of positions and paths, which are at most 2^45
 /// contact tolerances. It is so much smaller than a tolerance that a certificate for two bodies that are not
 /// near covers most of the tolerance.

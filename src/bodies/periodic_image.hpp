@@ -14,7 +14,7 @@
 namespace kinesphere {
 
 struct PeriodicImage {
-  /// centre of the body's swept sphere; it selects the image in which the body can meet others
+  /// centre of the body's safe region; it selects the image in which the body can meet others
   Vec3 middle{};
   /// Largest magnitude of an image count; fits into 64 bits.
   static constexpr double most_images = 0x1p62;
@@ -22,10 +22,10 @@ struct PeriodicImage {
   /// Whole numbers: bound.position + image * period is on the path since the caller placed the body.
   Vec3 image{};
 
-  /// Moves the image so that the centre of the box around the path is in the primary box. Returns the shift
-  /// from the new position to the old one.
-  Vec3 wrap(const Space& space, const Box& way) {
-    const auto [centre, images] = space.wrapped(0.5 * (way.lower + way.upper));
+  /// Moves the image of a body with this centre to the primary box. Returns the shift from the new position
+  /// to the old one.
+  Vec3 wrap(const Space& space, const Vec3& place) {
+    const auto [centre, images] = space.wrapped(place);
     middle = centre;
     if (images == Vec3{}) return {};
     image += images;

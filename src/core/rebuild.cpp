@@ -57,8 +57,7 @@ void Core::be_part(Ghosts& ghosts, double first_radius, bool grows, bool drifts)
   for (std::uint32_t number = 0; number < balls_.size(); ++number) {
     if (balls_[number].list == none) continue;
     for (const std::uint32_t other : lists_.at(balls_[number].list)) ghosts.note_neighbours(number, other);
-    if (balls_[number].has_region())
-      ghosts.note_region(number, region_centre(number), region_reach(number));
+    if (balls_[number].has_region()) ghosts.note_region(number, region_centre(number), region_reach(number));
   }
 }
 

@@ -7,7 +7,6 @@ namespace kinesphere {
 void World::WorldEditor::reserve(std::size_t bodies) {
   state_.bodies.reserve(bodies);
   state_.contacts.reserve(bodies);
-  state_.broad_phase.reserve(bodies);
   main_.dirty().reserve(bodies);
 }
 
@@ -72,36 +71,11 @@ void World::WorldEditor::insert_at(std::uint32_t number, const Bound& bound) {
   register_anew(number);
 }
 
-/// Others find the body where it is now. The next advance searches for its neighbours.
+/// Others find the body where it is now, also bodies that are added before the next advance.
 void World::WorldEditor::register_anew(std::uint32_t number) {
-  const Body& body = bodies()[number];
-  if (state_.core) return insert_in_core(number);
-  BroadPhase& windows = state_.broad_phase;
-  if (windows.contains(number)) windows.leave(number);
-  main_.invalidate(number);
-  if (bodies().definition().allow_overlap) return;
-  // Bodies added before the next advance must be able to find it.
-  const Window window = body.is_static() ? Window::endless() : Window::at(time(), Window::shortest);
-  if (bodies().space().repeats()) state_.bodies.wrap_to_primary(number, time(), 0.0);
-  windows.enter(number, inflated_bound(bodies(), number, time()), time(), window);
-  windows.tidy();
-}
-
-/// Bodies added before the next advance must be able to find it.
-void World::WorldEditor::insert_in_core(std::uint32_t number) {
-  if (state_.core->contains(number)) state_.core->leave(number);
+  if (state_.core.contains(number)) state_.core.leave(number);
   main_.invalidate(number);
   if (!bodies().definition().allow_overlap) main_.show_in_core(number);
-}
-
-void World::WorldEditor::use_windows() {
-  if (!state_.core) return;
-  main_.leave_core();
-  for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
-    if (!bodies()[number].present()) continue;
-    state_.bodies[number].relocated = true;
-    register_anew(number);
-  }
 }
 
 void World::WorldEditor::end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends) {

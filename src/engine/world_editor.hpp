@@ -50,8 +50,6 @@ class World::WorldEditor {
   void set_shape(BodyId id, const Shape& shape);
   void set_mass(BodyId id, double mass) { state_.bodies.masses.keep(id.index, mass); }
   void set_user_data(BodyId id, std::uint64_t data) { state_.bodies[id.index].user_data = data; }
-  /// From now on, windows and certificates find what is due, in place of the core.
-  void use_windows();
 
  private:
   const Bodies& bodies() const { return state_.bodies; }
@@ -60,7 +58,6 @@ class World::WorldEditor {
   BodyId insert(const BodyDefinition& definition, auto give_form);
   void insert_at(std::uint32_t number, const Bound& bound);
   void register_anew(std::uint32_t number);
-  void insert_in_core(std::uint32_t number);
   void replace(std::uint32_t number, const Bound& bound);
   void end_contacts_outside(std::uint32_t number, const CollisionShape& replacement);
   void end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends);

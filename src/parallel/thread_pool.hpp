@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -12,7 +11,6 @@
 #include <utility>
 
 #include "kinesphere/workers.hpp"
-#include "parallel/thread_gain.hpp"
 
 namespace kinesphere {
 
@@ -42,9 +40,6 @@ class SharedRange {
 
   /// Processes ranges until none is left or one has failed. Thread-safe.
   void work(std::size_t worker);
-  /// CPU time of all threads in work() (seconds); 0 where the system does not tell. Precondition: all workers
-  /// have stopped.
-  double cpu_seconds() const { return 1e-9 * static_cast<double>(cpu_nanoseconds_); }
   /// Throws the exception of the first range that failed, if any. Precondition: all workers have stopped.
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
@@ -55,7 +50,6 @@ class SharedRange {
   std::size_t range_;
   RangeFunction work_;
   std::atomic<std::size_t> next_ = 0;
-  std::atomic<std::int64_t> cpu_nanoseconds_ = 0;
   std::atomic<bool> failed_ = false;
   std::mutex mutex_;  ///< protects the members below
   std::exception_ptr failure_;
@@ -73,18 +67,6 @@ class Workers::Pool {
   /// Processes all items on the calling thread, as worker 0, and on others, each with its own number less
   /// than count(). Returns when all have stopped.
   virtual void run(SharedRange& items) = 0;
-  /// Calls run(), and adds its times to those of take_sharing().
-  void run_timed(SharedRange& items) {
-    using Clock = std::chrono::steady_clock;
-    const auto begin = Clock::now();
-    run(items);
-    shared_wall_ += std::chrono::duration<double>(Clock::now() - begin).count();
-    shared_cpu_ += items.cpu_seconds();
-  }
-
-  /// Makes the threads work, and speculate, however little they gain: for tests.
-  void be_eager() { is_eager_ = true; }
-
   /// Returns the pool of `workers`. Precondition: they have not been moved from.
   static Pool& of(Workers& workers) { return *workers.pool_; }
   static Workers made(std::unique_ptr<Pool> pool) { return Workers(std::move(pool)); }
@@ -92,11 +74,6 @@ class Workers::Pool {
  private:
   friend class PoolLease;
   std::atomic<bool> busy_ = false;
-  bool is_eager_ = false;
-  ThreadGain gain_;
-  // Seconds in parallel loops since take_sharing(): of all threads, and of real time.
-  double shared_cpu_ = 0.0;
-  double shared_wall_ = 0.0;
 };
 
 using ThreadPool = Workers::Pool;
@@ -117,16 +94,6 @@ class PoolLease {
   /// Returns the maximum number of concurrent workers.
   std::size_t count() const { return pool_ ? static_cast<std::size_t>(pool_->count()) : 1; }
 
-  /// Returns nullptr if there is one thread alone, or if the threads never stand back.
-  ThreadGain* gain() { return count() == 1 || is_eager() ? nullptr : &pool_->gain_; }
-  bool is_eager() const { return pool_ && pool_->is_eager_; }
-
-  /// CPU time of all threads in parallel loops since the last call, and the real time of these loops
-  /// (seconds). Precondition: count() > 1.
-  std::pair<double, double> take_sharing() {
-    return {std::exchange(pool_->shared_cpu_, 0.0), std::exchange(pool_->shared_wall_, 0.0)};
-  }
-
   /// Calls f(begin, end, worker) for disjoint ranges that cover all items, on up to count() threads
   /// concurrently; each thread has its own number `worker` less than count(). Ranges have at least
   /// `least_range` items, except for the last one, and begin in order. Returns when all are done. If f
@@ -140,7 +107,7 @@ class PoolLease {
       return;
     }
     SharedRange shared(items, range, RangeFunction(f));
-    pool_->run_timed(shared);
+    pool_->run(shared);
     shared.rethrow();
   }
   /// Calls f(k, worker) for each item k, as parallel_for() does.

@@ -126,16 +126,6 @@ class Tasks final : public ThreadPool {
   TaskSystem system_;
 };
 
-/// CPU time of the calling thread; 0 where the system does not tell.
-std::int64_t thread_cpu_nanoseconds() {
-#ifdef CLOCK_THREAD_CPUTIME_ID
-  timespec time{};
-  if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0)
-    return 1'000'000'000 * std::int64_t{time.tv_sec} + time.tv_nsec;
-#endif
-  return 0;
-}
-
 Result<void> check_threads(int threads) {
   return InputCheck("Workers::create")
       .require(threads >= 1 && threads <= Workers::most_threads, ErrorCode::out_of_range, {"threads"},
@@ -146,8 +136,6 @@ Result<void> check_threads(int threads) {
 }  // namespace
 
 void SharedRange::work(std::size_t worker) {
-  const std::int64_t begin_of_work = thread_cpu_nanoseconds();
-  const ScopeGuard note([&] { cpu_nanoseconds_ += thread_cpu_nanoseconds() - begin_of_work; });
   while (!failed_.load(std::memory_order_relaxed)) {
     const std::size_t begin = next_.fetch_add(range_, std::memory_order_relaxed);
     if (begin >= items_) return;

@@ -2,34 +2,27 @@
 
 #include <algorithm>
 
-#include "broadphase/neighbour_search.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
 
-std::vector<std::uint32_t> registered_in(const Box& box, const WorldState& state, double now) {
-  if (!state.core) {
-    NeighbourSearch search;
-    const auto found = search.in_box(state.broad_phase, box, now);
-    return {found.begin(), found.end()};
-  }
+std::vector<std::uint32_t> registered_in(const Box& box, const WorldState& state) {
   const Vec3 centre = 0.5 * (box.lower + box.upper);
   const double radius = norm(box.upper - centre);
-  if (radius < infinity) return state.core->find(centre, radius);
+  if (radius < infinity) return state.core.find(centre, radius);
   std::vector<std::uint32_t> all;
   for (std::uint32_t number = 0; number < state.bodies.numbers(); ++number)
-    if (state.core->contains(number)) all.push_back(number);
+    if (state.core.contains(number)) all.push_back(number);
   return all;
 }
 
-/// A swept sphere or safe region contains its body until its window or its own time ends, which is not in the
-/// past. Only a body that was changed or violated its bound can be outside, and such a body is dirty.
-std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& state, const DirtyList& dirty,
-                                     double now) {
+/// A safe region contains its body until its own time, which is not in the past. Only a body that was changed
+/// or violated its bound can be outside, and such a body is dirty.
+std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& state, const DirtyList& dirty) {
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t number : dirty.numbers())
     if (state.bodies[number].dirty) numbers.push_back(number);
-  for (const std::uint32_t number : registered_in(box, state, now))
+  for (const std::uint32_t number : registered_in(box, state))
     if (!state.bodies[number].dirty) numbers.push_back(number);
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());

@@ -8,13 +8,11 @@
 
 namespace kinesphere {
 
-/// Returns all bodies whose swept spheres or safe regions come near the box now, in any order. Cost: one
-/// search.
-std::vector<std::uint32_t> registered_in(const Box& box, const WorldState& state, double now);
+/// Returns all bodies whose safe regions come near the box, in any order. Cost: one search.
+std::vector<std::uint32_t> registered_in(const Box& box, const WorldState& state);
 
 /// Returns all bodies that may be in the box now, in ascending order. Cost: one search, plus one step for
 /// each body in the dirty list.
-std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& state, const DirtyList& dirty,
-                                     double now);
+std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& state, const DirtyList& dirty);
 
 }  // namespace kinesphere

@@ -7,17 +7,14 @@ namespace kinesphere {
 /// Returns the bound of a body as the core knows it: the ball around its shape, as far as it senses.
 Bound EventProcessor::extent_of(std::uint32_t number) const {
   const Body& body = bodies()[number];
-  if (body.is_static()) {
-    const InflatedBound ball = inflated_bound(bodies(), number, time_);
-    return {.time = time_, .position = ball.moved.centre, .radius = ball.moved.radius + ball.margin};
-  }
+  if (body.is_static()) return ball_around_static(bodies(), number, time_);
   Bound extent = body.bound;
   extent.radius += sensor_reach(bodies(), number);
   return extent;
 }
 
 void EventProcessor::enter_core(std::uint32_t number) {
-  if (bodies().space().repeats()) bodies().wrap_to_primary(number, time_, 0.0);
+  if (bodies().space().repeats()) bodies().wrap_to_primary(number, time_);
   core().enter(number, extent_of(number), bodies()[number].is_static(), bodies().meets_walls(number));
 }
 
@@ -32,12 +29,6 @@ bool EventProcessor::rebuild_core() {
       return false;
   }
   return core().rebuild(time_);
-}
-
-void EventProcessor::leave_core() {
-  state_->core.reset();
-  known_ = PairTimes();
-  linked_.clear();
 }
 
 /// Tells the core whether the body touches or senses anything, and whether it is plain (core::Ball).
@@ -91,7 +82,7 @@ void EventProcessor::settle_core() {
       enter_core(number);
     set_kind_in_core(number);
     note_rotation(number);
-    body.mark_visited();
+    body.mark_recertified();
   }
   for (const std::uint32_t number : round_) ++counters_of(number).restarts;
   dirty_.clear();
@@ -132,7 +123,7 @@ double EventProcessor::unchanged_until(std::uint32_t a, std::uint32_t b) {
   const double until = certifier.apart_until(a, b);
   if (until <= time_) return certifier.bounce_apart(a, b) ? infinity : time_;
   if (bodies()[a].is_shaped() || bodies()[b].is_shaped())
-    known_.keep(bodies(), a, b, std::min(until, certifier.earliest_window_end(a, b)), time_);
+    known_.keep(bodies(), a, b, std::min(until, certifier.earlier_own_time(a, b)), time_);
   return until;
 }
 
@@ -140,7 +131,7 @@ Result<double> EventProcessor::recheck(std::uint32_t a, std::uint32_t b) {
   if (!bodies().may_meet(a, b)) return infinity;
   const auto until = check_pair(a, b);
   if (!until) return until.error();
-  return keep_time(a, b, *until, certifier().earliest_window_end(a, b));
+  return keep_time(a, b, *until, certifier().earlier_own_time(a, b));
 }
 
 double EventProcessor::walls_unchanged_until(std::uint32_t ball) {
@@ -151,7 +142,7 @@ double EventProcessor::walls_unchanged_until(std::uint32_t ball) {
 Result<double> EventProcessor::recheck_walls(std::uint32_t ball) {
   const auto until = check_walls(ball);
   if (!until) return until.error();
-  return keep_time(ball, ball, *until, certifier().walls_end_of(ball));
+  return keep_time(ball, ball, *until, certifier().own_time(ball));
 }
 
 /// Remembers the outcome of a recheck. If an event waits, that is until the contact has changed.
@@ -162,7 +153,7 @@ double EventProcessor::keep_time(std::uint32_t a, std::uint32_t b, const std::op
 }
 
 Result<bool> EventProcessor::report(std::span<const std::uint32_t> balls, Reason reason) {
-  const auto probed = probe(balls, reason == Reason::near ? ProbeCause::near : ProbeCause::window);
+  const auto probed = probe(balls, reason == Reason::near ? ProbeCause::near : ProbeCause::region);
   if (!probed) return probed.error();
   return std::none_of(balls.begin(), balls.end(),
                       [this](std::uint32_t ball) { return bodies()[ball].dirty; });

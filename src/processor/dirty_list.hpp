@@ -38,27 +38,11 @@ class DirtyList {
     std::erase_if(numbers_, [&](std::uint32_t number) { return !bodies[number].dirty; });
     return numbers_;
   }
-  /// Returns true if arrivals() has any.
-  bool has_arrivals(const Bodies& bodies) const {
-    return std::any_of(numbers_.begin(), numbers_.end(),
-                       [&](std::uint32_t number) { return is_arrival(bodies[number]); });
-  }
-  /// Returns the dirty bodies that were relocated since the last window start, each once, in ascending order.
-  std::vector<std::uint32_t> arrivals(const Bodies& bodies) const {
-    std::vector<std::uint32_t> arrived;
-    for (const std::uint32_t number : numbers_)
-      if (is_arrival(bodies[number])) arrived.push_back(number);
-    std::sort(arrived.begin(), arrived.end());
-    arrived.erase(std::unique(arrived.begin(), arrived.end()), arrived.end());
-    return arrived;
-  }
   void clear() { numbers_.clear(); }
 
   static void serialize(auto& self, auto& archive) { archive(self.numbers_); }
 
  private:
-  static bool is_arrival(const Body& body) { return body.dirty && body.relocated; }
-
   std::vector<std::uint32_t> numbers_;
 };
 

@@ -1,5 +1,5 @@
-// Processing of one instant: certificates that are due are rechecked, events are delivered, and bodies that
-// they changed are recertified before time advances.
+// Processing of one instant: what is due is handled, events are delivered, and bodies that they changed are
+// recertified before time advances.
 #include "processor/event_processor.hpp"
 
 #include <algorithm>
@@ -11,10 +11,6 @@
 
 namespace kinesphere {
 
-void EventProcessor::open_queue() {
-  queue_.open([certifier = certifier()](const PairCertificate& pair) { return certifier.is_stale(pair); });
-}
-
 Result<void> EventProcessor::gather(double until) {
   for (;;) {
     if (auto recertified = recertify(); !recertified) return recertified;
@@ -24,13 +20,7 @@ Result<void> EventProcessor::gather(double until) {
       advance_clock(next);
       if (auto noted = note_instant(); !noted) return noted;
     }
-    if (uses_core()) {
-      if (auto handled = core().handle_next(*this); !handled) return handled;
-      continue;
-    }
-    const PairCertificate pair = queue_.take_first();
-    if (certifier().is_stale(pair)) continue;
-    if (auto rechecked = recheck(pair); !rechecked) return rechecked;
+    if (auto handled = core().handle_next(*this); !handled) return handled;
   }
   gathering_ = false;
   return {};
@@ -82,18 +72,10 @@ void EventProcessor::note_probes(std::span<const std::uint32_t> numbers, ProbeCa
 }
 
 Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, ProbeCause cause) {
-  PoolLease alone;
-  return probe(numbers, cause, alone);
-}
-
-Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, ProbeCause cause,
-                                   PoolLease& lease) {
   note_probes(numbers, cause);
-  if (log_)
-    for (const std::uint32_t number : numbers) log_->note_change(number, time_);
-  const auto broken = reports_.take(bodies(), time_, numbers, lease);
+  const auto broken = reports_.take(bodies(), time_, numbers);
   if (!broken) return broken.error();
-  if (uses_core()) note_reports(numbers);
+  note_reports(numbers);
   for (const auto& [k, velocity, violation, acceleration_limit] : *broken) {
     Sphere reported = sphere(numbers[k]);
     reported.state.velocity = velocity;
@@ -104,27 +86,26 @@ Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, Probe
   return {};
 }
 
-Result<bool> EventProcessor::probe_stale(std::span<const std::uint32_t> numbers, ProbeCause cause,
-                                         PoolLease& lease) {
+Result<bool> EventProcessor::probe_stale(std::span<const std::uint32_t> numbers, ProbeCause cause) {
   std::vector<std::uint32_t> stale;
   for (const std::uint32_t number : numbers)
     if (bodies()[number].enabled && !bodies()[number].fresh(time_)) stale.push_back(number);
   if (stale.empty()) return false;
-  if (auto probed = probe(stale, cause, lease); !probed) return probed.error();
+  if (auto probed = probe(stale, cause); !probed) return probed.error();
   return true;
 }
 
-Result<void> EventProcessor::spot_check(std::span<const std::uint32_t> numbers, PoolLease& lease) {
+Result<void> EventProcessor::spot_check(std::span<const std::uint32_t> numbers) {
   if (numbers.empty()) return {};
-  note_probes(numbers, ProbeCause::window);
-  const auto broken = reports_.contradicted(bodies(), time_, numbers, lease);
+  note_probes(numbers, ProbeCause::region);
+  const auto broken = reports_.contradicted(bodies(), time_, numbers);
   if (!broken) return broken.error();
   for (const std::uint32_t number : *broken) dirty_.add(bodies(), number);
   return {};
 }
 
 Result<SpotChecks::Census> EventProcessor::spot_check_due(std::span<const std::uint32_t> numbers,
-                                                          std::uint64_t probes, PoolLease& lease) {
+                                                          std::uint64_t probes) {
   const SpotChecks& checks = state_->spot_checks;
   const bool counts = SpotChecks::counts(probes);
   const bool may_choose_any = checks.may_choose_any(time_);
@@ -135,14 +116,14 @@ Result<SpotChecks::Census> EventProcessor::spot_check_due(std::span<const std::u
     const std::uint32_t name = bodies().table().name_of(number);
     const bool may_be_due = may_choose_any || name < SpotChecks::first_names || body.bound.velocity == Vec3{};
     if ((!may_be_due && !counts && census.any) || !SpotChecks::concerns(body)) continue;
-    if (!(uses_core() && core().is_ghost(number))) {
+    if (!core().is_ghost(number)) {
       census.any = true;
       if (counts) SpotChecks::count(census, body);
     }
     if (may_be_due && SpotChecks::may_check(body, time_) && checks.is_due(body, name, time_))
       due.push_back(number);
   }
-  if (auto checked = spot_check(due, lease); !checked) return checked.error();
+  if (auto checked = spot_check(due); !checked) return checked.error();
   return census;
 }
 
@@ -155,10 +136,7 @@ void EventProcessor::invalidate(std::uint32_t number) {
 void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
   Body& body = bodies()[number];
   if (body.is_sleeping()) Sleeping(*state_, *this).wake(number);
-  if (!body.fresh(time_)) {
-    assert(log_ == nullptr && "clusters share the table of changes");
-    bodies().change_of(number).velocity = velocity;
-  }
+  if (!body.fresh(time_)) bodies().change_of(number).velocity = velocity;
   // A body with a report of now moves on with it at once, also if it awaits another report, having slept.
   if (body.bound.time == time_) body.bound.velocity = velocity;
   turn_reported(number);
@@ -168,42 +146,25 @@ void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angu
   Body& body = bodies()[number];
   RigidRecord& record = bodies().rigid[body];
   record.change({record.at(time_).orientation, angular_velocity}, time_, body.fresh(time_));
-  if (!body.fresh(time_)) {
-    assert(log_ == nullptr && "clusters share the table of changes");
-    bodies().change_of(number);
-  }
+  if (!body.fresh(time_)) bodies().change_of(number);
   contacts().set_largest_acceleration(number, bodies().largest_acceleration(number));
   turn_reported(number);
 }
 
 /// Makes everything stale that depends on how the body has moved until now.
 void EventProcessor::turn_reported(std::uint32_t number) {
-  if (log_) {
-    note_linked_conflicts(number);
-    if (!log_->conflicts.empty()) return;
-  }
   contacts().turn_reported(number);
   invalidate(number);
 }
 
 void EventProcessor::detach(std::uint32_t number) {
-  if (log_) {
-    note_linked_conflicts(number);
-    if (!log_->conflicts.empty()) return;
-  }
   events_.end_all_contacts(
       contacts(), number, time_, [this](std::uint32_t other) { return sphere(other); }, bodies().walls());
   events_.drop_woken(bodies().id_of(number));
   Body& body = bodies()[number];
   ++body.revision;
   body.dirty = body.relocated = false;
-  if (uses_core()) {
-    if (core().contains(number)) core().leave(number);
-  } else if (log_) {
-    log_->add(SweptSphereUpdate::departure(number, body.revision, time_));
-  } else if (state_->broad_phase.contains(number)) {
-    state_->broad_phase.leave(number);
-  }
+  if (core().contains(number)) core().leave(number);
 }
 
 void EventProcessor::note_response() {
@@ -215,7 +176,7 @@ void EventProcessor::recertify_changed() {
   auto& changed = events_.changed();
   while (!changed.empty()) {
     const auto [a, b] = changed.back();
-    recertify_changed(a, b);
+    note_link_change(a, b);
     changed.pop_back();
   }
 }
@@ -233,17 +194,19 @@ Result<void> EventProcessor::recertify_all() {
   return {};
 }
 
-/// Certifies a pair again after its contact changed, since the earlier certificate applied to the earlier
-/// contact state. If a == b, the pair is the body and the walls.
-void EventProcessor::recertify_changed(std::uint32_t a, std::uint32_t b) {
-  if (uses_core()) return note_link_change(a, b);
-  if (!bodies()[a].present() || !bodies()[b].present() || bodies()[a].dirty || bodies()[b].dirty) return;
-  queue_.add(certifier().certificate(time_, a, a == b ? PairCertificate::walls : b));
+/// Tells the core of the dirty bodies, when their states are known.
+Result<void> EventProcessor::recertify_dirty() {
+  // Listed bodies may have been removed or disabled since.
+  round_ = dirty_.sort(bodies());
+  if (auto probed = probe_stale(round_, ProbeCause::change); !probed) return probed.error();
+  // Reports that violate bounds may have made further bodies dirty.
+  round_ = dirty_.numbers();
+  settle_core();
+  return {};
 }
 
 std::size_t EventProcessor::bytes() const {
-  return queue_.bytes() + reports_.bytes() + known_.bytes() +
-         heap_bytes(events_, dirty_, round_, entered_, found_.certificates);
+  return reports_.bytes() + known_.bytes() + heap_bytes(events_, dirty_, round_);
 }
 
 }  // namespace kinesphere

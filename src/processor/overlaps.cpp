@@ -28,7 +28,7 @@ std::optional<BodyId> Overlaps::of_body(BodyId id, const CollisionShape& shape,
                                         const BodyDefinition& definition) const {
   std::optional<BodyId> found;
   const Box box = box_now(bodies_, shape, now_);
-  for (const std::uint32_t other : registered_in(box, state_, now_)) {
+  for (const std::uint32_t other : registered_in(box, state_)) {
     const Body& body = bodies_[other];
     const CollisionShape partner = collision_shape_of(bodies_, other);
     const bool certain =

@@ -73,7 +73,7 @@ BusyBody ProbeProfile::busy_body(const Bodies& bodies, std::uint32_t number, con
                 .probes = std::accumulate(record.probes.begin(), record.probes.end(), std::uint64_t{0}),
                 .touching = record.of(ProbeCause::touching),
                 .near = record.of(ProbeCause::near),
-                .windows = record.of(ProbeCause::window),
+                .windows = record.of(ProbeCause::region),
                 .changes = record.of(ProbeCause::change),
                 .queries = record.of(ProbeCause::query),
                 .contacts = record.contacts,

@@ -1,6 +1,5 @@
 // ProbeProfile counts, for each body, how often it is probed and why, while World::set_profiling() is on.
 //
-// Only the processor with all bodies has a profile: while it has one, no cluster is executed speculatively.
 #pragma once
 
 #include <array>
@@ -19,7 +18,7 @@ namespace kinesphere {
 enum class ProbeCause : std::uint8_t {
   touching,  ///< recheck of a pair in contact, or of a body in contact with a wall
   near,      ///< recheck of another pair, or of a body near a wall
-  window,    ///< start of a window
+  region,    ///< a safe region, or a spot check
   change,    ///< change by the caller, or violated bound
   query,     ///< call outside advance()
 };

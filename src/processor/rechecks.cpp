@@ -1,36 +1,16 @@
-// Rechecks of certificates that are due: the current bounds decide whether a contact can have changed; if so,
-// fresh reports decide whether it has.
+// Rechecks of pairs that are due: the current bounds decide whether a contact can have changed; if so, fresh
+// reports decide whether it has.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "number/infinity.hpp"
-#include "number/scope_guard.hpp"
 #include "processor/event_processor.hpp"
 
 namespace kinesphere {
 
-Result<void> EventProcessor::recheck(const PairCertificate& pair) {
-  // Returns the certificate to the queue unless its recheck completes.
-  ScopeGuard requeue([this, pair] { queue_.add(pair); });
-  if (pair.kind() == PairCertificate::Kind::window_end) {
-    auto renewed = renew(pair.first);
-    if (renewed) requeue.dismiss();
-    return renewed;
-  }
-  const bool with_walls = pair.kind() == PairCertificate::Kind::with_walls;
-  if (!with_walls) ++work_.counters.pair_checks;
-  const auto until = with_walls ? check_walls(pair.first) : check_pair(pair.first, pair.second);
-  if (!until) return until.error();
-  requeue.dismiss();
-  const double end = with_walls ? certifier().walls_end_of(pair.first)
-                                : certifier().earliest_window_end(pair.first, pair.second);
-  if (*until && **until < end) queue_.add(certifier().certificate(**until, pair.first, pair.second));
-  return {};
-}
-
 /// Finds out whether something happens between two bodies now. Returns a time before which nothing does,
-/// which means nothing beyond the earlier window end; nullopt if an event waits, or if one of the two is
+/// which means nothing beyond the own time of either; nullopt if an event waits, or if one of the two is
 /// dirty.
 Result<std::optional<double>> EventProcessor::check_pair(std::uint32_t a, std::uint32_t b) {
   const PairCertifier certifier = this->certifier();
@@ -82,7 +62,7 @@ double EventProcessor::note_rates(RelativeLimits& limits, std::initializer_list<
 /// nullopt if an event must be delivered first.
 std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t b) {
   const PairCertifier certifier = this->certifier();
-  const double end = certifier.earliest_window_end(a, b);
+  const double end = certifier.earlier_own_time(a, b);
   RelativeLimits sum{bodies()[a].bound.growth_speed + bodies()[b].bound.growth_speed,
                      bodies().largest_acceleration(a) + bodies().largest_acceleration(b)};
   const double until = bodies().radii.any() ? note_rates(sum, {a, b}, end) : end;
@@ -160,10 +140,10 @@ Result<std::optional<double>> EventProcessor::check_walls(std::uint32_t number) 
 }
 
 /// Applies the contact rule to the fresh report of a body, for each wall that it touches or may reach. The
-/// other walls cannot matter before its window ends.
+/// other walls cannot matter before its own time.
 std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
   const Body& body = bodies()[number];
-  const double end = certifier().walls_end_of(number);
+  const double end = certifier().own_time(number);
   RelativeLimits limits{body.bound.growth_speed, bodies().largest_acceleration(number)};
   const double until = bodies().radii.any() ? note_rates(limits, {number}, end) : end;
   const CollisionShape shape = collision_shape_of(bodies(), number);

@@ -62,8 +62,9 @@ Error no_rotation_probe(BodyId body, std::string_view call) {
 }  // namespace
 
 Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double time,
-                                                          std::span<const std::uint32_t> numbers,
-                                                          PoolLease& lease) {
+                                                          std::span<const std::uint32_t> numbers) {
+  PoolLease alone;
+  PoolLease& lease = lease_ != nullptr ? *lease_ : alone;
   if (numbers.size() <= few_reports && profile_ == nullptr) {
     if (take_few(bodies, time, numbers)) return std::span<const Violation>();
   } else {
@@ -78,8 +79,9 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
 }
 
 Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, double time,
-                                                         std::span<const std::uint32_t> numbers,
-                                                         PoolLease& lease) {
+                                                         std::span<const std::uint32_t> numbers) {
+  PoolLease alone;
+  PoolLease& lease = lease_ != nullptr ? *lease_ : alone;
   ask_for(bodies, time, numbers, lease);
   std::vector<std::uint32_t> broken;
   for (std::size_t k = 0; k < numbers.size(); ++k) {

@@ -26,11 +26,12 @@ class Reports {
     double acceleration_limit;  ///< of the body from now on
   };
 
-  /// Sets the probe to call from now on, and the name of the API call, for error messages. The probe must
-  /// outlive its use here.
-  void ask(const Probe& probe, std::string_view call) {
+  /// Sets the probe to call from now on, the name of the API call, for error messages, and threads that may
+  /// all call the probe, if there are any. The probe and the lease must outlive their use here.
+  void ask(const Probe& probe, std::string_view call, PoolLease* lease = nullptr) {
     probe_ = &probe;
     call_ = call;
+    lease_ = lease;
   }
   bool is_asking() const { return asking_; }
 
@@ -38,15 +39,15 @@ class Reports {
   void set_profile(ProbeProfile* profile) { profile_ = profile; }
   ProbeProfile* profile() const { return profile_; }
 
-  /// Probes bodies at a time, with several threads if `lease` has them, and starts their bounds anew from the
+  /// Probes bodies at a time, with several threads if there are, and starts their bounds anew from the
   /// reports. Returns the violated bounds in the order of `numbers`; the span is valid until the next call.
   /// Errors: an invalid state; then all bounds are unchanged.
-  Result<std::span<const Violation>> take(Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
-                                          PoolLease& lease);
+  Result<std::span<const Violation>> take(Bodies& bodies, double time,
+                                          std::span<const std::uint32_t> numbers);
   /// Probes exact bodies as take() does, without changing anything. Returns those whose reports violate their
   /// bounds. Errors: an invalid state.
   Result<std::vector<std::uint32_t>> contradicted(const Bodies& bodies, double time,
-                                                  std::span<const std::uint32_t> numbers, PoolLease& lease);
+                                                  std::span<const std::uint32_t> numbers);
   std::size_t bytes() const;
 
  private:
@@ -65,6 +66,7 @@ class Reports {
   // Set during calls that may probe.
   const Probe* probe_ = nullptr;
   std::string_view call_;  ///< name of the API call, for error messages
+  PoolLease* lease_ = nullptr;
   bool asking_ = false;
   ProbeProfile* profile_ = nullptr;
   // Members only to reuse their memory.

@@ -67,7 +67,7 @@ std::vector<std::uint32_t> Sleeping::sleeping_in_touch(std::uint32_t number) con
   const CollisionShape own = collision_shape_of(bodies(), number);
   const Box box = box_now(bodies(), own, processor_.time());
   for (const std::uint32_t other :
-       bodies_in({box.lower - margin, box.upper + margin}, state_, processor_.dirty(), processor_.time())) {
+       bodies_in({box.lower - margin, box.upper + margin}, state_, processor_.dirty())) {
     if (other != number && bodies()[other].is_sleeping() && bodies().may_touch(number, other) &&
         gap_at(bodies(), processor_.time(), own, collision_shape_of(bodies(), other)).lower <= apart)
       found.push_back(other);

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "bodies/body.hpp"
-#include "broadphase/window_policy.hpp"
 #include "number/infinity.hpp"
 #include "number/powers.hpp"
 
@@ -24,8 +23,6 @@ class SpotChecks {
   /// move are checked there once, after their arrival, and then at their turn() and as probes_between says,
   /// which keeps gases cheap.
   static constexpr std::uint32_t first_names = 32;
-  /// Each body that moves is checked at the start of one of so many main windows.
-  static constexpr std::uint32_t windows_between = 32;
   /// Those that move are also checked twice on each way of their radius, if the world then makes at least so
   /// many other probes for each of these checks.
   static constexpr std::uint64_t probes_between = 100;
@@ -99,16 +96,6 @@ class SpotChecks {
   /// Returns false if of the bodies that move only first ones can be due at `time`. None is due at the time
   /// of an arrival.
   bool may_choose_any(double time) const { return time != arrived_ && (!arrivals_.empty() || time >= even_); }
-  /// Returns the number, modulo windows_between, to which the names of the moving bodies add up that are to
-  /// be checked if windows start at `time`; nullopt unless main windows start then.
-  static std::optional<std::uint32_t> turn(const WindowPolicy& policy, double time) {
-    if (!policy.is_chosen()) return std::nullopt;
-    const double index = time * power_of_two(-policy.main_rung());
-    if (index != std::floor(index)) return std::nullopt;
-    const double turn = std::fmod(index, double{windows_between});
-    return static_cast<std::uint32_t>(turn < 0.0 ? turn + windows_between : turn);
-  }
-
   static void serialize(auto& self, auto& archive) {
     archive(self.arrivals_, self.arrived_, self.first_, self.checked_, self.rarer_, self.even_, self.began_);
   }

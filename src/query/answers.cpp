@@ -6,6 +6,7 @@
 #include "bound/relative_motion.hpp"
 #include "number/infinity.hpp"
 #include "query/certain_sphere.hpp"
+#include "space/stretch_grid.hpp"
 
 namespace kinesphere {
 namespace {
@@ -58,18 +59,12 @@ bool World::Engine::Answers::is_certified(std::uint32_t a, std::uint32_t b) cons
 
 /// Returns a time before which no contact of the pair begins, as the engine does not recheck the pair
 /// earlier. Returns the present time if the pair has no valid certificate.
-double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b,
-                                        const CertificateTimes& times) const {
-  if (!is_certified(a, b)) return now_;
-  return std::max(
-      std::min(engine_.claimed_until(a, b, times), engine_.main().certifier().earliest_window_end(a, b)),
-      now_);
+double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b) const {
+  return is_certified(a, b) ? std::max(engine_.claimed_until(a, b), now_) : now_;
 }
 
-double World::Engine::Answers::recorded_of_walls(std::uint32_t number, const CertificateTimes& times) const {
-  if (!is_certified(number, number)) return now_;
-  const double end = engine_.main().certifier().walls_end_of(number);
-  return std::max(now_, std::min(engine_.claimed_until(number, PairCertificate::walls, times), end));
+double World::Engine::Answers::recorded_of_walls(std::uint32_t number) const {
+  return is_certified(number, number) ? std::max(engine_.core().balls()[number].own, now_) : now_;
 }
 
 void World::Engine::Answers::consider_touching(std::uint32_t number, ContactBoundary& first) const {
@@ -86,10 +81,9 @@ void World::Engine::Answers::consider_touching(std::uint32_t number, ContactBoun
       first = {now_, number, std::nullopt, wall, true};
 }
 
-void World::Engine::Answers::consider_walls(std::uint32_t number, const CertificateTimes& times,
-                                            ContactBoundary& first) const {
+void World::Engine::Answers::consider_walls(std::uint32_t number, ContactBoundary& first) const {
   if (!body(number).present() || !engine_.bodies().meets_walls(number)) return;
-  const double known = recorded_of_walls(number, times);
+  const double known = recorded_of_walls(number);
   if (known >= first.time) return;
   const Bound bound = guarded(number);
   for (const Wall wall : walls) {
@@ -150,10 +144,9 @@ double World::Engine::Answers::meeting(const CollisionShape& extent_of_a,
   return std::max(first, now_);
 }
 
-void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, const CertificateTimes& times,
-                                      ContactBoundary& first) const {
+void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, ContactBoundary& first) const {
   if (!body(a).present() || !body(b).present() || !engine_.bodies().may_touch(a, b)) return;
-  const double known = recorded(a, b, times);
+  const double known = recorded(a, b);
   if (known >= first.time) return;
   const Bound bound_of_a = guarded(a);
   const Bound bound_of_b = guarded(b);
@@ -164,7 +157,7 @@ void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, const Ce
 ContactBoundary World::Engine::Answers::of_pair(std::uint32_t a, std::uint32_t b) const {
   if (engine_.contacts().touch(a, b)) return {now_, a, b, Wall::none, true};
   ContactBoundary first;
-  consider(a, b, CertificateTimes(engine_.certificates(a)), first);
+  consider(a, b, first);
   return first;
 }
 
@@ -172,13 +165,10 @@ ContactBoundary World::Engine::Answers::of_body(std::uint32_t number) const {
   ContactBoundary first;
   consider_touching(number, first);
   if (first.touching) return first;
-  const CertificateTimes times(engine_.certificates(number));
-  consider_walls(number, times, first);
-  // Pairs with certificates come first: their early times make most of the others cheap to dismiss.
-  for (const PairCertificate& pair : times.pairs())
-    if (pair.has_second()) consider(number, pair.first == number ? pair.second : pair.first, times, first);
+  consider_walls(number, first);
+  consider_due(number, first);
   for (std::uint32_t other = 0; other < engine_.bodies().numbers(); ++other)
-    if (other != number && body(other).present()) consider(number, other, times, first);
+    if (other != number && body(other).present()) consider(number, other, first);
   return first;
 }
 
@@ -189,58 +179,67 @@ ContactBoundary World::Engine::Answers::of_world() const {
   ContactBoundary first;
   for (const std::uint32_t number : present) consider_touching(number, first);
   if (first.touching) return first;
-  // Any pair gives an upper limit for the answer. Pairs with certificates and neighbouring numbers give a
-  // good one.
-  const CertificateTimes times(engine_.certificates());
-  for (const PairCertificate& pair : times.pairs())
-    if (pair.has_second()) consider(pair.first, pair.second, times, first);
+  // Any pair gives an upper limit for the answer. Pairs that are due and neighbouring numbers give a good
+  // one.
+  for (const std::uint32_t number : present) consider_due(number, first);
   for (std::size_t k = 0; k < present.size(); ++k) {
-    consider_walls(present[k], times, first);
-    if (k > 0) consider(present[k - 1], present[k], times, first);
+    consider_walls(present[k], first);
+    if (k > 0) consider(present[k - 1], present[k], first);
   }
-  consider_all_within(present, times, first);
+  consider_all_within(present, first);
   return first;
 }
 
-/// Returns a bound up to the horizon, in the periodic image whose swept box has its middle in the primary
-/// box.
-InflatedBound World::Engine::Answers::until_horizon(std::uint32_t number, double horizon) const {
-  if (body(number).is_static()) return inflated_bound(engine_.bodies(), number, now_);
-  Bound bound = guarded(number);
-  const Box box = swept_box(bound, now_, horizon);
-  bound.position -= engine_.bodies().space().shift_of(
-      engine_.bodies().space().wrapped(0.5 * (box.lower + box.upper)).images);
-  return {BoundAt(bound, now_), 0.0};
+/// Considers the pair that the body is due about, if there is one. Its early time makes most others cheap to
+/// dismiss.
+void World::Engine::Answers::consider_due(std::uint32_t number, ContactBoundary& first) const {
+  const auto due = engine_.core().certificate_of(number);
+  if (due && due->other != core::none) consider(number, due->other, first);
+}
+
+/// Returns the way of a body up to the horizon, in the periodic image whose middle is in the primary box.
+Stretch World::Engine::Answers::way_of(std::uint32_t number, double horizon) const {
+  const Bound bound =
+      body(number).is_static() ? ball_around_static(engine_.bodies(), number, now_) : guarded(number);
+  const BoundAt now(bound, now_);
+  const Vec3 half_way = body(number).is_static() ? Vec3{} : 0.5 * (horizon - now_) * now.velocity;
+  const double radius = body(number).is_static() ? bound.radius : now.radius_after(horizon - now_);
+  return {number, engine_.bodies().space().wrapped(now.centre + half_way).position, half_way, radius};
 }
 
 /// Searches for pairs whose bounds may come to the same place before first.time. No other pair can lower it.
 void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t>& numbers,
-                                                 const CertificateTimes& times,
                                                  ContactBoundary& first) const {
   if (first.time <= now_) return;
   const double horizon = first.time;
-  BroadPhase windows(engine_.bodies().space());
-  std::vector<BroadPhase::Starter> starters;
+  const Space& space = engine_.bodies().space();
+  std::vector<Stretch> ways;
   std::vector<std::uint32_t> anywhere;
-  const auto bound_of = [&](std::uint32_t number) { return until_horizon(number, horizon); };
   for (const std::uint32_t number : numbers) {
     const bool is_static = body(number).is_static();
-    if (is_static || (horizon < infinity &&
-                      engine_.bodies().space().is_narrow(swept_box(guarded(number), now_, horizon)))) {
-      const Window window = is_static ? Window::endless() : Window{0, horizon};
-      starters.push_back({number, SizeClasses::size_class_of(bound_of(number), window), window});
-    } else {
+    const Box box = swept_box(guarded(number), now_, horizon);
+    if (!is_static &&
+        !(horizon < infinity && is_finite(box.lower) && is_finite(box.upper) && space.is_narrow(box))) {
       anywhere.push_back(number);
+      continue;
     }
+    const Stretch way = way_of(number, horizon);
+    const Vec3 half = Vec3{std::abs(way.half_way.x), std::abs(way.half_way.y), std::abs(way.half_way.z)} +
+                      Vec3{way.radius, way.radius, way.radius};
+    // Two that meet beyond a border of the primary box do so in two of the images that reach into it.
+    space.for_each_image({way.middle - half, way.middle + half}, 0.0, [&](const Box&, const Vec3& shift) {
+      ways.push_back({number, way.middle + shift, way.half_way, way.radius});
+    });
   }
-  PoolLease alone;
-  windows.start(starters, now_, bound_of, alone);
-  NeighbourSearch search;
-  for (const auto& [a, b] : search.near_started(windows, 0, windows.started_slots(), now_, bound_of))
-    consider(a, b, times, first);
+  StretchGrid grid;
+  grid.fill(ways);
+  for (std::uint32_t slot = 0; slot < grid.slots(); ++slot)
+    for (const std::uint32_t other : grid.search_behind(slot))
+      if (grid.number_at(slot) != grid.number_at(other))
+        consider(grid.number_at(slot), grid.number_at(other), first);
   for (const std::uint32_t number : anywhere)
     for (const std::uint32_t other : numbers)
-      if (other != number) consider(number, other, times, first);
+      if (other != number) consider(number, other, first);
 }
 
 /// Returns true for a static body that is not a ball.

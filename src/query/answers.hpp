@@ -7,6 +7,7 @@
 
 #include "engine/engine.hpp"
 #include "kinesphere/certificates.hpp"
+#include "space/stretch_grid.hpp"
 
 namespace kinesphere {
 
@@ -49,17 +50,16 @@ class World::Engine::Answers {
   bool is_shape_at_rest(std::uint32_t number) const;
   double meeting(const CollisionShape& extent_of_a, const CollisionShape& extent_of_b) const;
   bool is_certified(std::uint32_t a, std::uint32_t b) const;
-  double recorded(std::uint32_t a, std::uint32_t b, const CertificateTimes& times) const;
-  double recorded_of_walls(std::uint32_t number, const CertificateTimes& times) const;
+  double recorded(std::uint32_t a, std::uint32_t b) const;
+  double recorded_of_walls(std::uint32_t number) const;
   void consider_touching(std::uint32_t number, ContactBoundary& first) const;
-  void consider_walls(std::uint32_t number, const CertificateTimes& times, ContactBoundary& first) const;
-  void consider(std::uint32_t a, std::uint32_t b, const CertificateTimes& times,
-                ContactBoundary& first) const;
+  void consider_walls(std::uint32_t number, ContactBoundary& first) const;
+  void consider(std::uint32_t a, std::uint32_t b, ContactBoundary& first) const;
   void consider_approach(std::uint32_t a, std::uint32_t b, double distance, ContactBoundary& first) const;
   void consider_approach_to_walls(std::uint32_t number, double distance, ContactBoundary& first) const;
-  InflatedBound until_horizon(std::uint32_t number, double horizon) const;
-  void consider_all_within(const std::vector<std::uint32_t>& numbers, const CertificateTimes& times,
-                           ContactBoundary& first) const;
+  void consider_due(std::uint32_t number, ContactBoundary& first) const;
+  Stretch way_of(std::uint32_t number, double horizon) const;
+  void consider_all_within(const std::vector<std::uint32_t>& numbers, ContactBoundary& first) const;
 
   const Engine& engine_;
   double now_;

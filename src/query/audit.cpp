@@ -32,8 +32,7 @@ std::string times(double recorded, double computed) {
 
 class World::Engine::Audit {
  public:
-  explicit Audit(const Engine& engine)
-      : engine_(engine), now_(engine.time()), certificates_(engine.certificates()) {}
+  explicit Audit(const Engine& engine) : engine_(engine), now_(engine.time()) {}
 
   std::optional<AuditFinding> run() {
     const auto count = static_cast<std::uint32_t>(engine_.bodies().numbers());
@@ -53,16 +52,9 @@ class World::Engine::Audit {
   }
 
  private:
-  const std::optional<core::Core>& core() const { return engine_.state().core; }
-  /// Returns the time before which the engine claims that nothing happens between two bodies, apart from the
-  /// ends of their windows.
-  double recorded(std::uint32_t a, std::uint32_t b) const {
-    return engine_.claimed_until(a, b, certificates_);
-  }
-
   void check_core() {
-    if (finding_ || !core()) return;
-    const char* const broken = core()->audit([this](std::uint32_t a, std::uint32_t b) {
+    if (finding_) return;
+    const char* const broken = engine_.core().audit([this](std::uint32_t a, std::uint32_t b) {
       using Claim = core::Core::Claim;
       if (a == b && body(a).dirty) return Claim::nothing;
       // The truth, not a bound with errors, stays in its safe region. check_pair() looks at when two meet.
@@ -110,18 +102,11 @@ class World::Engine::Audit {
     const Body& b = body(number);
     if (b.dirty) return;
     if (!engine_.is_registered(number)) return find("registration", name(number) + " is not registered");
-    if (!core())
-      if (const auto wrong = engine_.broad_phase().check(number))
-        find("registration", name(number) + " " + *wrong);
     const double end = engine_.box_end(number);
-    if (end < now_) find("queue", name(number) + " is in a window that has ended" + times(now_, end));
-    if (!core() && end < engine_.main().epoch_end() &&
-        certificates_.of(number, PairCertificate::window_end) > end)
-      find("queue", name(number) + " is in a window that is not renewed when it ends");
+    if (end < now_) find("queue", name(number) + " may have left its safe region" + times(now_, end));
     if (b.is_sleeping() && !(b.is_at_rest() && b.bound.velocity == Vec3{} && b.largest_acceleration() == 0.0))
       find("registration", name(number) + " rests, but its bound does not stand still");
     if (b.is_static()) return check_static(number, end);
-    if (is_too_wide(number, end)) find("registration", name(number) + " has too wide a box");
     if (!exact(number)) return;
     const Vec3 margin = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition().contact_tolerance);
     Box box{engine_.box(number).lower - margin, engine_.box(number).upper + margin};
@@ -131,30 +116,9 @@ class World::Engine::Audit {
     reach.radius += engine_.bodies().sensors.reach(b.sensor_class);
     const double exit = earliest_exit(reach, box, now_, end);
     if (too_late(end, exit, now_)) find("registration", name(number) + " leaves its box" + times(end, exit));
-    // A window that ends now is not replaced yet, but queries still search the body in its box.
+    // A safe region that is left now is not replaced yet, but queries still search the body in its box.
     if (end <= now_ && earliest_exit(reach, box, now_, infinity) <= now_)
       find("registration", name(number) + " is not in its box");
-  }
-
-  /// True if a body violates rule (2) of space/space.hpp on its way to the end of its window. Images are
-  /// chosen by the unrounded way, so the wider registered swept sphere (single-precision rounding, relative
-  /// to the way on all axes) does not count. Returns false in the shortest window representable at this time,
-  /// as the engine has no alternative.
-  bool is_too_wide(std::uint32_t number, double end) const {
-    if (core() || has_narrow_way(number)) return false;
-    const Window window = engine_.broad_phase().window_of(number);
-    const double began = end < infinity ? window.begin() : now_;
-    const auto shortest_at = [](double time) { return Window::at(time, Window::shortest).rung; };
-    return window.rung > std::max(shortest_at(began), shortest_at(now_));
-  }
-
-  /// Rule (2) of space/space.hpp. Where it cannot be kept, nothing is guaranteed about the image of a pair.
-  bool has_narrow_way(std::uint32_t number) const {
-    const Space& space = engine_.bodies().space();
-    if (core() || !space.repeats()) return true;
-    const double end = engine_.broad_phase().end_of(number);
-    const InflatedBound bound = inflated_bound(engine_.bodies(), number, now_);
-    return space.is_narrow(bound.box_of_way(duration_until(end, now_)));
   }
 
   void check_static(std::uint32_t number, double end) {
@@ -175,15 +139,12 @@ class World::Engine::Audit {
     if (!has_ends && until_reports_of_walls(engine_.contacts().rule(), b.bound, *engine_.bodies().walls(),
                                             now_, infinity) <= now_)
       return;
-    const double end = engine_.main().certifier().walls_end_of(number);
+    const double end = engine_.core().balls()[number].own;
     const double within = has_ends ? 0.0 : engine_.definition().contact_tolerance;
     const Vec3 margin = Vec3{1.0, 1.0, 1.0} * within;
     const Box box{engine_.bodies().walls()->lower - margin, engine_.bodies().walls()->upper + margin};
     const double reached = earliest_exit(shrinking_bound(number, b.bound), box, now_, end);
-    const double claimed = std::min(recorded(number, PairCertificate::walls), end);
-    if (claimed < end && too_late(claimed, reached, now_) && reached > now_)
-      find("wall", name(number) + " may reach a wall unseen" + times(claimed, reached));
-    if (claimed == end && reached < end && too_late(end, reached, now_) && reached > now_)
+    if (reached < end && too_late(end, reached, now_) && reached > now_)
       find("wall", name(number) + " may reach a wall, which is not due" + times(end, reached));
   }
 
@@ -222,8 +183,7 @@ class World::Engine::Audit {
 
   void check_threshold(std::uint32_t a, std::uint32_t b, const Threshold& threshold) {
     // A pair whose certificate fails now is rechecked before time advances.
-    if (!checkable(a, b, threshold) || recorded(a, b) <= now_) return;
-    if (!has_narrow_way(a) || !has_narrow_way(b)) return;
+    if (!checkable(a, b, threshold) || engine_.claimed_until(a, b) <= now_) return;
     const CollisionShape first = collision_shape_of(engine_.bodies(), a);
     const CollisionShape second = collision_shape_of(engine_.bodies(), b);
     const Vec3 period = engine_.bodies().space().period();
@@ -232,8 +192,7 @@ class World::Engine::Audit {
     const Bound other = threshold.within ? second.bound : shrinking_bound(b, second.bound);
     const PlainGap gap({one, first.is_static, first.shape, first.carried_radius},
                        {other, second.is_static, second.shape, second.carried_radius}, period);
-    // After the window's end the pair may meet in another image, and the next search will have found it.
-    const double end = std::min(recorded(a, b), engine_.main().certifier().earliest_window_end(a, b));
+    const double end = engine_.claimed_until(a, b);
     if (!threshold.within && !boxes_overlap(a, b)) return;
     if (const auto change = certain_change(a, b, threshold, gap, end))
       find("certificate", pair(a, b) + " may change unseen" + times(end, *change));
@@ -293,7 +252,7 @@ class World::Engine::Audit {
     const bool doubtful = recorded > computed;
     double end = recorded;
     if (end == infinity && doubtful) end = now_ + 8.0 * (computed - now_);
-    if (end == infinity) end = engine_.main().certifier().earliest_window_end(a, b);
+    if (end == infinity) end = engine_.main().certifier().earlier_own_time(a, b);
     const double least_step = (end - now_) / (doubtful ? 512.0 : 16.0);
     const double last = end - 0x1p-20 * (end - now_);
     for (double time = now_; time < end;) {
@@ -351,7 +310,6 @@ class World::Engine::Audit {
 
   const Engine& engine_;
   double now_;
-  CertificateTimes certificates_;
   std::vector<std::optional<Box>> boxes_;
   std::optional<AuditFinding> finding_;
 };

@@ -132,9 +132,7 @@ void World::Engine::Queries::restrict(std::vector<std::uint32_t>& numbers) const
 /// Approximate size of the smallest bodies (length).
 double World::Engine::Queries::finest_length() const {
   const double tolerance = engine_.definition().contact_tolerance;
-  const auto& core = engine_.state().core;
-  const double least = core ? core->median_reach() : engine_.broad_phase().least_width();
-  return std::clamp(least, tolerance, 0x1p30 * tolerance);
+  return std::clamp(engine_.core().median_reach(), tolerance, 0x1p30 * tolerance);
 }
 
 /// Returns the certain sphere of a body in the image nearest to `point`.

@@ -30,18 +30,12 @@ class Stopwatch {
 
 Memory World::Engine::memory() const {
   Memory memory;
-  memory.pairs = main_.queue().bytes();
-  memory.other = sizeof *this + main_.bytes() - memory.pairs;
+  memory.pairs = core().due_bytes();
+  memory.other = sizeof *this + main_.bytes();
   memory.bodies = heap_bytes(bodies());
   memory.contacts = heap_bytes(contacts());
-  memory.windows = heap_bytes(broad_phase());
-  if (prepared_) memory.windows += heap_bytes(*prepared_);
-  if (state_.core) {
-    memory.pairs += state_.core->due_bytes();
-    memory.windows += state_.core->region_bytes();
-  }
+  memory.windows = core().region_bytes();
   if (profile_) memory.other += profile_->bytes();
-  for (const SearchResults& found : found_) memory.other += heap_bytes(found.certificates);
   return memory;
 }
 
@@ -53,34 +47,20 @@ Memory World::Inspection::memory() const {
 
 std::vector<CellView> World::Inspection::cells() const {
   std::vector<CellView> all;
-  const Engine& engine = world_->engine("cells");
-  if (engine.state().core)
-    for (const auto& [box, bodies] : engine.state().core->cells()) all.push_back({box, bodies});
-  for (const GridLevel& level : engine.broad_phase().levels())
-    level.for_each_cell([&](const Box& box, std::size_t bodies) { all.push_back({box, bodies}); });
+  for (const auto& [box, bodies] : world_->engine("cells").core().cells()) all.push_back({box, bodies});
   return all;
 }
 
 std::vector<Certificate> World::Inspection::certificates() const {
   const Engine& engine = world_->engine("certificates");
   std::vector<Certificate> all;
-  if (const auto& core = engine.state().core) {
-    for (std::uint32_t number = 0; number < engine.bodies().numbers(); ++number)
-      if (const auto found = core->certificate_of(number)) {
-        const bool waits = engine.bodies()[number].dirty ||
-                           (found->other != core::none && engine.bodies()[found->other].dirty);
-        if (waits) continue;
-        const BodyId other = found->other == core::none ? no_body : engine.bodies().id_of(found->other);
-        const auto [first, second] = std::minmax({engine.bodies().id_of(number), other});
-        all.push_back({first, second, found->until});
-      }
-    return all;
-  }
-  for (const PairCertificate& pair : engine.certificates()) {
-    if (pair.kind() == PairCertificate::Kind::window_end) continue;
-    const BodyId other = pair.has_second() ? engine.bodies().id_of(pair.second) : no_body;
-    const auto [first, second] = std::minmax({engine.bodies().id_of(pair.first), other});
-    all.push_back({first, second, pair.failure_time});
+  for (std::uint32_t number = 0; number < engine.bodies().numbers(); ++number) {
+    const auto found = engine.core().certificate_of(number);
+    if (!found || engine.bodies()[number].dirty) continue;
+    if (found->other != core::none && engine.bodies()[found->other].dirty) continue;
+    const BodyId other = found->other == core::none ? no_body : engine.bodies().id_of(found->other);
+    const auto [first, second] = std::minmax({engine.bodies().id_of(number), other});
+    all.push_back({first, second, found->until});
   }
   return all;
 }

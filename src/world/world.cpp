@@ -276,10 +276,9 @@ EventRange World::events(double until, Probe probe) & { return {*this, until, st
 void EventRange::go_on() { event_ = world_->advance(until_, probe_).value(); }
 
 Result<std::optional<Event>> World::recorded_advance(double until, const Probe& probe) {
-  PoolLease alone;
-  if (!recorder_) return changeable().advance(until, probe, alone);
+  if (!recorder_) return changeable().advance(until, probe);
   Recorder::Listener listener(*recorder_, *this, probe, until);
-  auto event = changeable().advance(until, listener, alone);
+  auto event = changeable().advance(until, listener);
   if (event) listener.succeeded(*event);
   return event;
 }

@@ -5,6 +5,7 @@
 #include "bodies/validation.hpp"
 #include "engine/engine.hpp"
 #include "number/scope_guard.hpp"
+#include "processor/responses.hpp"
 #include "world/changing.hpp"
 #include "world/preconditions.hpp"
 #include "world/undelivered_events.hpp"
@@ -38,17 +39,12 @@ Result<void> check_argument(const Event& event, std::string_view argument, Check
 
 }  // namespace
 
-/// One call of World::run: repeated work, each time followed by delivering the resulting events to the sink.
-class World::Run final : private ResponseHandler {
+/// One call of World::run: one event after the other, each delivered to the sink.
+class World::Run {
  public:
-  /// Without respond_by(), events get no response. The arguments must outlive the run. A pair filter is the
-  /// caller's code, which need not be thread-safe: while there is one, the run uses no workers.
+  /// Without respond_by(), events get no response. The arguments must outlive the run.
   Run(World& world, double until, const Probe& probe, const EventFn& sink, Workers* workers)
-      : world_(world),
-        until_(until),
-        probe_(probe),
-        on_event_(sink),
-        lease_(world.engine_->bodies().filters.has_pair_filter() ? nullptr : workers) {}
+      : world_(world), until_(until), probe_(probe), on_event_(sink), lease_(workers) {}
   void respond_by(MotionSource& source, const ResponseFn& respond) {
     source_ = &source;
     respond_ = &respond;
@@ -66,12 +62,9 @@ class World::Run final : private ResponseHandler {
     world_.running_ = true;
     const ScopeGuard stop([&] { world_.running_ = false; });
     if (!deliver()) return {};
-    gain_ = lease_.gain();
-    // Clusters of several threads are those of windows.
-    if (may_share_work()) world_.changeable().changes().use_windows();
     world_.changeable().begin_call(until_);
     for (;;) {
-      const auto done = work();
+      const auto done = step();
       if (!done) return done.error();
       if (!deliver()) return {};
       if (*done) return {};
@@ -94,66 +87,12 @@ class World::Run final : private ResponseHandler {
     return !undelivered.ended;
   }
 
-  /// Does some work, and appends the resulting events to undelivered_->events. Returns true when the world
-  /// has reached the end of the run. Precondition: all earlier events in undelivered_->events have been
-  /// delivered to the sink.
-  Result<bool> work() {
-    if (exclusive_) return step(*exclusive_, nullptr);
-    if (!shares_work()) return step(until_, nullptr);
-    // Each epoch is tried anew.
-    const double epoch_end = world_.engine_->epoch_end();
-    if (stands_back()) return step(std::min(until_, epoch_end), nullptr);
-    if (epoch_end == one_by_one_) return step(std::min(until_, epoch_end), &lease_);
-    return step_batch();
-  }
-
-  /// Returns true if several threads may work. What few bodies need is done before other threads have begun.
-  /// Recording and profiling require events to be processed one at a time, and a rotation probe has to be
-  /// called in the order of time.
-  bool may_share_work() const {
-    constexpr std::size_t fewest_bodies = 1024;
-    if (gain_ != nullptr && world_.engine_->bodies().table().live_count() < fewest_bodies) return false;
-    return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ &&
-           !world_.engine_->bodies().rigid.probe;
-  }
-  bool shares_work() const {
-    return !world_.engine_->state().core && may_share_work() && world_.undelivered_->empty();
-  }
-
-  /// Returns true if one thread does all for some time, because the processors are busy.
-  bool stands_back() {
-    if (gain_ == nullptr) return false;
-    if (const auto [cpu, wall] = lease_.take_sharing(); cpu > 0.0)
-      gain_->note_sharing(cpu, wall, ThreadGain::Clock::now());
-    return !gain_->uses_threads(ThreadGain::Clock::now);
-  }
-
-  /// Processes many events at once if possible, otherwise one.
-  Result<bool> step_batch() {
-    Engine& engine = world_.changeable();
-    const auto can_begin = engine.prepare_batch(probe_, lease_);
-    if (!can_begin) return renamed(can_begin.error());
-    if (*can_begin) {
-      if (!runner_) runner_.emplace(engine.runner(lease_, probe_, respond_ != nullptr ? this : nullptr));
-      if (runner_->run(until_, world_.undelivered_->events)) {
-        exclusive_ = runner_->exclusive();
-        return engine.time() == until_ && !engine.is_due();
-      }
-      one_by_one_ = engine.epoch_end();
-    }
-    return step(std::min(until_, engine.epoch_end()), &lease_);
-  }
-
-  /// Processes one event, or advances to `until` if there is none before. The threads of `sharing` share
-  /// window starts; without it, one thread does all.
-  Result<bool> step(double until, PoolLease* sharing) {
+  /// Processes one event, or advances to the end of the run if there is none before. Returns true if it has.
+  Result<bool> step() {
     UndeliveredEvents& undelivered = *world_.undelivered_;
-    const auto event = next(until, sharing);
+    const auto event = next();
     if (!event) return renamed(event.error());
-    if (!*event) {
-      exclusive_.reset();
-      return until == until_;
-    }
+    if (!*event) return true;
     if (respond_ != nullptr) {
       // Keeps the event unless its response is applied, also if the callback throws.
       ScopeGuard keep([&] { undelivered.unanswered = *event; });
@@ -164,16 +103,23 @@ class World::Run final : private ResponseHandler {
     return false;
   }
 
-  Result<std::optional<Event>> next(double until, PoolLease* sharing) {
+  Result<std::optional<Event>> next() {
     if (auto event = world_.undelivered_->take()) return event;
-    if (sharing == nullptr) return world_.engine_advance(until, probe_);
-    return world_.changeable().advance(until, probe_, *sharing);
+    if (!may_ask_on_threads()) return world_.engine_advance(until_, probe_);
+    return world_.changeable().advance(until_, probe_, &lease_);
+  }
+
+  /// Returns true if several threads may call the probe. Recording and profiling require calls one at a time,
+  /// and a rotation probe has to be called in the order of time.
+  bool may_ask_on_threads() const {
+    return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ &&
+           !world_.engine_->bodies().rigid.probe;
   }
 
   Result<void> answer_one(const Event& event) {
     const auto checked = respond(event);
     if (!checked) return checked.error();
-    if (auto turned = apply(event, *checked); !turned) return turned;
+    if (auto turned = apply_response(*source_, world_.definition(), event, *checked); !turned) return turned;
     const auto parts = parts_of(event, *checked);
     for (const auto& [body, velocity, spin, action] : parts)
       if (velocity) world_.changing(step::SetVelocity{body, *velocity}).set_velocity(body, *velocity);
@@ -197,19 +143,13 @@ class World::Run final : private ResponseHandler {
     }
   }
 
-  Result<Response> respond(const Event& event) override {
+  Result<Response> respond(const Event& event) const {
     Response answer = (*respond_)(event);
     reduce(event.first, answer.first_velocity, answer.first_angular_velocity, answer.first_action);
     reduce(event.second, answer.second_velocity, answer.second_angular_velocity, answer.second_action);
     if (auto valid = check(event, answer); !valid) return valid.error();
     return answer;
   }
-
-  Result<void> apply(const Event& event, const Response& answer) override {
-    return apply_response(*source_, world_.definition(), event, answer);
-  }
-  MotionOrigin origin(BodyId body) override { return source_->origin(body); }
-  void set_origin(BodyId body, const MotionOrigin& origin) override { source_->set_origin(body, origin); }
 
   /// Reduces what a response says of a body to what has an effect: a response cannot know which bodies
   /// earlier responses have removed, disabled or put to sleep.
@@ -272,13 +212,6 @@ class World::Run final : private ResponseHandler {
   const Probe& probe_;
   const EventFn& on_event_;
   PoolLease lease_;
-  ThreadGain* gain_ = nullptr;               ///< nullptr if the threads never stand back
-  std::optional<SpeculativeRunner> runner_;  ///< created when several threads are used
-  /// End of the epoch in which speculative execution does not pay off: until then, events are processed one
-  /// by one.
-  std::optional<double> one_by_one_{};
-  /// Time of an instant whose events are processed one by one (SpeculativeRunner::exclusive).
-  std::optional<double> exclusive_{};
   bool stops_ = false;  ///< the response to the last event has Response::stop, and the sink is still to come
   MotionSource* source_ = nullptr;
   const ResponseFn* respond_ = nullptr;

@@ -45,7 +45,6 @@ TEST(BodiesValidity, FindsEachContradiction) {
       {"NaN", [](Bodies& b) { b[0].bound.position.x = std::numeric_limits<double>::quiet_NaN(); }},
       {"negative limit", [](Bodies& b) { b[0].bound.acceleration_limit = -1.0; }},
       {"bound smaller than the body", [](Bodies& b) { b[0].bound.radius = 0.25; }},
-      {"visited", [](Bodies& b) { b[0].visited = true; }},
       {"dirty, but not listed", [](Bodies& b) { b[0].dirty = true; }},
       {"dirty though disabled", [](Bodies& b) { b[0].enabled = false, b[0].dirty = true; }},
       {"a change without a report to come", [](Bodies& b) { b.change_of(0); }},

@@ -68,31 +68,16 @@ TEST(BodyBounds, SensorsReachAsFarAsTheirLargestDistance) {
   EXPECT_EQ(sensor_reach(bodies, 0), 0.0);
   EXPECT_EQ(sensor_reach(bodies, 1), 4.0);
   EXPECT_EQ(reach_of_pair(bodies, 0, 1), 4.0);
-  const double tolerance = bodies.definition().contact_tolerance;
-  EXPECT_EQ(inflated_bound(bodies, 0, 0.0).margin, tolerance);
-  EXPECT_EQ(inflated_bound(bodies, 1, 0.0).margin, 4.0 + tolerance);
 }
 
 TEST(BodyBounds, OfAStaticShapeAreTheBallAroundItsBox) {
   SmallWorld world;
   const std::uint32_t number = world.add({.radius = 0.0});
   world.state.bodies.give_shape(number, Box{{1, 2, 3}, {3, 4, 5}}, false);
-  const InflatedBound ball = inflated_bound(world.state.bodies, number, 0.0);
-  EXPECT_EQ(ball.moved.centre, (Vec3{2, 3, 4}));
-  EXPECT_NEAR(ball.moved.radius, std::sqrt(3.0), 1e-15);
+  const Bound ball = ball_around_static(world.state.bodies, number, 0.0);
+  EXPECT_EQ(ball.position, (Vec3{2, 3, 4}));
+  EXPECT_NEAR(ball.radius, std::sqrt(3.0) + world.state.bodies.definition().contact_tolerance, 1e-15);
   EXPECT_EQ(box_of_static(world.state.bodies, number), (Box{{1, 2, 3}, {3, 4, 5}}));
-}
-
-TEST(BodyBounds, SpeedBoundsHoldForTheWholeTime) {
-  const Bound bound{.velocity = {3, 0, 4},
-                    .planned_acceleration = {0, 2, 0},
-                    .growth_speed = 0.5,
-                    .acceleration_limit = 1.0};
-  const SpeedBound speed = speed_bound_of(BoundAt(bound, 0.0));
-  EXPECT_EQ(speed.speed, 5.5);
-  EXPECT_EQ(speed.acceleration, 3.0);
-  for (const double s : {0.0, 1.0, 5.0})
-    EXPECT_GE(speed.way(s), norm(bound.centre_at(s)) + bound.radius_at(s) - 1e-12);
 }
 
 }  // namespace

@@ -16,10 +16,9 @@
 #include "kinesphere/motion/steered_motion.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/response.hpp"
+#include "kinesphere/workers.hpp"
 #include "motion/still.hpp"
-#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
-#include "support/in_windows.hpp"
 
 namespace kinesphere::simulation_test {
 namespace {
@@ -228,7 +227,6 @@ std::uint64_t hash_of_comings_and_goings(int threads) {
   }
   const auto crowd = simulation.add_motion(RandomForces::create(forces).value());
   simulation.add_all(crowd, {.radius = 0.5}).value();
-  use_windows(simulation.world());
   const auto respond = [](const Event& event) -> Response {
     if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) return {};
     Random dice(std::bit_cast<std::uint64_t>(event.time));
@@ -249,7 +247,7 @@ std::uint64_t hash_of_comings_and_goings(int threads) {
           .value();
     }
   };
-  Workers workers = eager_workers(threads).value();
+  Workers workers = Workers::create(threads).value();
   simulation.run(3.0, respond, sink, &workers).value();
   EXPECT_GT(added, 5);
   EXPECT_GT(simulation.world().size(), 100u);

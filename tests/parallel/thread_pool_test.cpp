@@ -15,7 +15,6 @@ TEST(PoolLease, WithoutWorkersDoesAllOnOneThread) {
   PoolLease alone;
   EXPECT_TRUE(static_cast<bool>(alone));
   EXPECT_EQ(alone.count(), 1u);
-  EXPECT_EQ(alone.gain(), nullptr);
   std::vector<std::size_t> items;
   alone.for_each(5, 2, [&](std::size_t k, std::size_t worker) {
     EXPECT_EQ(worker, 0u);
@@ -52,13 +51,6 @@ TEST(PoolLease, HoldsThePoolAlone) {
     EXPECT_FALSE(static_cast<bool>(PoolLease(&workers)));
   }
   EXPECT_TRUE(static_cast<bool>(PoolLease(&workers)));
-}
-
-TEST(PoolLease, NeverStandsBackIfItIsEager) {
-  Workers workers = Workers::create(2).value();
-  EXPECT_NE(PoolLease(&workers).gain(), nullptr);
-  ThreadPool::of(workers).be_eager();
-  EXPECT_EQ(PoolLease(&workers).gain(), nullptr);
 }
 
 }  // namespace

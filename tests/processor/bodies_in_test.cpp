@@ -31,7 +31,7 @@ TEST(BodiesIn, AreAllThatAreInTheBoxInOrder) {
     world.main.invalidate(moved);
     const Vec3 corner = 3.0 * random.point_in_ball();
     const Box box{corner, corner + Vec3{1.0, 1.5, 2.0}};
-    const auto found = bodies_in(box, world.state, world.main.dirty(), time);
+    const auto found = bodies_in(box, world.state, world.main.dirty());
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
     EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end()) << "each once";
     EXPECT_LT(found.size(), 60u);

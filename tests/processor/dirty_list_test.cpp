@@ -28,7 +28,7 @@ TEST_F(DirtyListTest, HasEachBodyOnceInOrder) {
 }
 
 TEST_F(DirtyListTest, SortsAndDropsBodiesThatAreClean) {
-  bodies_[5].mark_visited();
+  bodies_[5].mark_recertified();
   EXPECT_EQ(list_.sort(bodies_), (Numbers{1, 2, 4}));
   list_.add(bodies_, 5);
   list_.add(bodies_, 0);
@@ -36,20 +36,10 @@ TEST_F(DirtyListTest, SortsAndDropsBodiesThatAreClean) {
 }
 
 TEST_F(DirtyListTest, ABodyThatBecameCleanAndDirtyAgainIsSortedOnce) {
-  bodies_[4].mark_visited();
+  bodies_[4].mark_recertified();
   list_.add(bodies_, 4);
   EXPECT_EQ(list_.numbers(), (Numbers{4, 1, 5, 2, 4}));
   EXPECT_EQ(list_.sort(bodies_), (Numbers{1, 2, 4, 5}));
-}
-
-TEST_F(DirtyListTest, ArrivalsAreDirtyAndRelocated) {
-  for (std::uint32_t number = 0; number < 6; ++number) bodies_[number].relocated = false;
-  EXPECT_FALSE(list_.has_arrivals(bodies_));
-  bodies_[3].relocated = true;
-  EXPECT_FALSE(list_.has_arrivals(bodies_)) << "that one is not dirty";
-  bodies_[5].relocated = bodies_[4].relocated = true;
-  EXPECT_TRUE(list_.has_arrivals(bodies_));
-  EXPECT_EQ(list_.arrivals(bodies_), (Numbers{4, 5}));
 }
 
 }  // namespace

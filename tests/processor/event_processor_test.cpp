@@ -49,7 +49,7 @@ TEST(EventProcessor, CountsWhatItDoes) {
   world.add({.acceleration_limit = 0.1, .velocity = {1, 0, 0}});
   world.add({.acceleration_limit = 0.1, .position = {4, 0, 0}});
   ASSERT_TRUE(world.advance(10.0));
-  const Counters& counters = world.main.work().counters;
+  const Counters& counters = world.main.counters();
   EXPECT_EQ(counters.count(EventKind::contact_begin), 1u);
   EXPECT_GT(counters.probes, 0u);
   EXPECT_GE(counters.restarts, 2u) << "both were added";
@@ -57,16 +57,17 @@ TEST(EventProcessor, CountsWhatItDoes) {
   EXPECT_GT(world.main.bytes(), 0u);
 }
 
-TEST(EventProcessor, MakesCertificatesStaleWhereABodyChanges) {
+TEST(EventProcessor, ForgetsWhatIsKnownOfPairsWhereABodyChanges) {
   SmallWorld world;
   world.add({.velocity = {1, 0, 0}});
   world.add({.position = {8, 0, 0}});
   ASSERT_TRUE(world.main.recertify());
   EXPECT_TRUE(world.main.is_recertified());
-  const PairCertificate pair = world.main.certifier().certificate(6.0, 0, 1);
-  EXPECT_FALSE(world.main.certifier().is_stale(pair));
+  PairTimes& known = world.main.pair_times();
+  known.keep(world.state.bodies, 0, 1, 6.0, 0.0);
+  EXPECT_EQ(known.find(world.state.bodies, 1, 0), 6.0);
   world.set_velocity(0, {-1, 0, 0});
-  EXPECT_TRUE(world.main.certifier().is_stale(pair));
+  EXPECT_EQ(known.find(world.state.bodies, 1, 0), -infinity);
   EXPECT_FALSE(world.main.is_recertified());
   EXPECT_EQ(world.main.dirty().numbers(), (std::vector<std::uint32_t>{0}));
   EXPECT_EQ(world.advance(100.0), std::nullopt) << "they fly apart now";
@@ -81,7 +82,7 @@ TEST(EventProcessor, DetachEndsContactsAndTheRegistration) {
   world.main.detach(0);
   world.state.bodies[0].enabled = false;
   EXPECT_FALSE(world.state.contacts.touch(0, 1));
-  EXPECT_FALSE(world.state.broad_phase.contains(0));
+  EXPECT_FALSE(world.state.core.contains(0));
   const auto end = world.advance(10.0);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->kind, EventKind::contact_end);
@@ -104,13 +105,11 @@ TEST(EventProcessor, ReportsThatBreakTheirBoundsAreEvents) {
   EXPECT_EQ(events.back().time, events.front().time);
 }
 
-TEST(EventProcessor, HasAPauseAtTheEndOfItsEpochOrBefore) {
+TEST(EventProcessor, HasAPauseAtTheNextSpotCheck) {
   SmallWorld world;
   EXPECT_EQ(world.main.pause(), infinity);
-  world.main.begin_epoch(4.0);
+  world.state.spot_checks.note_arrival(4.0);
   EXPECT_EQ(world.main.pause(), 4.0);
-  world.main.set_next_slice(2.5);
-  EXPECT_EQ(world.main.pause(), 2.5);
 }
 
 }  // namespace

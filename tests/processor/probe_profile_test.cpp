@@ -27,7 +27,7 @@ class ProbeProfileTest : public testing::Test {
 };
 
 TEST_F(ProbeProfileTest, PutsThoseWithMostProbesFirst) {
-  probe(2, ProbeCause::window, 3);
+  probe(2, ProbeCause::region, 3);
   probe(0, ProbeCause::near, 9);
   probe(3, ProbeCause::query, 3);
   const std::vector<BusyBody> busiest = profile.busiest(bodies, 10);
@@ -78,7 +78,7 @@ TEST_F(ProbeProfileTest, TellsWhatMostProbesAreFor) {
   EXPECT_EQ(reason_of(0), ProbeReason::contacts) << "one contact explains some probes";
   probe(2, ProbeCause::touching, 20);
   EXPECT_EQ(reason_of(2), ProbeReason::touching);
-  probe(3, ProbeCause::window, 20);
+  probe(3, ProbeCause::region, 20);
   EXPECT_EQ(reason_of(3), ProbeReason::travel);
   probe(3, ProbeCause::change, 30);
   EXPECT_EQ(reason_of(3), ProbeReason::changes);

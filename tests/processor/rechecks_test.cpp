@@ -20,7 +20,7 @@ TEST(Rechecks, OfExactBodiesNeedOneReportOfEach) {
   const auto event = world.advance(10.0);
   ASSERT_TRUE(event);
   EXPECT_NEAR(event->time, 2.5, tolerance);
-  EXPECT_EQ(world.main.work().counters.probes, 2u) << "both at once, where they meet";
+  EXPECT_EQ(world.main.counters().probes, 2u) << "both at once, where they meet";
 }
 
 TEST(Rechecks, ProbeTheOlderReportFirst) {
@@ -97,7 +97,7 @@ TEST(Rechecks, TellThatAGuardLetsTwoOverlap) {
   const auto event = world.advance(1e-3);
   ASSERT_TRUE(event);
   EXPECT_EQ(event->kind, EventKind::zeno_guard);
-  EXPECT_GT(world.main.work().counters.zeno_steps, 0u);
+  EXPECT_GT(world.main.counters().zeno_steps, 0u);
 }
 
 }  // namespace

@@ -21,8 +21,7 @@ class ReportsTest : public testing::Test {
     answers.push_back({body.position, body.velocity});
   }
   auto take(const Numbers& numbers, double time) {
-    PoolLease alone;
-    return reports.take(bodies, time, numbers, alone);
+    return reports.take(bodies, time, numbers);
   }
 
   Bodies bodies{WorldDefinition{}};

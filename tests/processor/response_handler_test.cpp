@@ -1,5 +1,5 @@
 // A response sets the origins of both bodies, or of none.
-#include "processor/response_handler.hpp"
+#include "processor/responses.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "support/expect_error.hpp"
 
-namespace kinesphere::response_handler_test {
+namespace kinesphere::responses_test {
 namespace {
 
 constexpr double now = 3.0;
@@ -62,4 +62,4 @@ TEST(ApplyResponse, SetsNoneIfTheSourceThrowsAtTheSecond) {
 }
 
 }  // namespace
-}  // namespace kinesphere::response_handler_test
+}  // namespace kinesphere::responses_test

@@ -39,14 +39,14 @@ TEST_F(SleepingTest, StandsStillAndKeepsItsLimitsForLater) {
   EXPECT_TRUE(body.is_at_rest());
   EXPECT_TRUE(body.stands_still());
   EXPECT_TRUE(body.fresh(77.0)) << "its report never becomes old";
-  EXPECT_EQ(world.state.broad_phase.end_of(3), infinity);
+  EXPECT_EQ(world.state.core.balls()[3].own, infinity);
   EXPECT_EQ(world.state.bodies.definition_of(3).acceleration_limit, 9.0);
-  const std::uint64_t probes = world.main.work().counters.probes;
+  const std::uint64_t probes = world.main.counters().probes;
   sleeping().resume(3);
   EXPECT_FALSE(body.is_sleeping());
   EXPECT_EQ(body.bound.acceleration_limit, 9.0);
   EXPECT_EQ(body.bound.growth_speed, error);
-  EXPECT_EQ(world.main.work().counters.probes, probes);
+  EXPECT_EQ(world.main.counters().probes, probes);
   EXPECT_EQ(woken(), std::set<std::uint32_t>{}) << "without an event";
 }
 

@@ -13,10 +13,9 @@ TEST(WorldState, FollowsFromTheDefinition) {
       .box = Box{{0, 0, 0}, {9, 9, 0}}, .periodic = {.y = true}, .dimensions = 2};
   const WorldState state(definition);
   EXPECT_EQ(state.bodies.definition(), definition);
-  EXPECT_TRUE(state.broad_phase.space().repeats(1));
-  EXPECT_TRUE(state.broad_phase.space().is_flat());
+  EXPECT_TRUE(state.bodies.space().repeats(1));
+  EXPECT_TRUE(state.bodies.space().is_flat());
   EXPECT_EQ(state.contacts.rule().tolerance(), definition.contact_tolerance);
-  EXPECT_FALSE(state.window_policy.is_chosen());
   ASSERT_TRUE(state.bodies.walls());
   EXPECT_EQ(state.bodies.walls()->upper.x, 9.0);
   EXPECT_EQ(state.bodies.walls()->upper.y, std::numeric_limits<double>::infinity()) << "it repeats";
@@ -26,12 +25,12 @@ TEST(WorldState, IsCopiedWhole) {
   WorldState state{WorldDefinition{}};
   state.bodies.add({.radius = 2.0}, 0.0);
   state.contacts.add(0, 0.0);
-  state.broad_phase.enter(0, inflated_bound(state.bodies, 0, 0.0), 0.0, Window::at(0.0, 0));
+  state.core.enter(0, {.radius = 2.0}, false, false);
   const WorldState copy = state;
-  state.broad_phase.leave(0);
+  state.core.leave(0);
   state.bodies.remove(0);
   EXPECT_EQ(copy.bodies[0].radius, 2.0);
-  EXPECT_TRUE(copy.broad_phase.contains(0));
+  EXPECT_TRUE(copy.core.contains(0));
 }
 
 }  // namespace

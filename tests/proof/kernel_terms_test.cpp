@@ -43,19 +43,6 @@ kernels::Bound bound(const std::string& name) {
           .acceleration_limit = field(name, "acceleration_limit")};
 }
 
-kernels::SweptSphere capsule(const std::string& name) {
-  const auto part = [&](const std::string& of) { return variable<Single>(name + ".(" + of + ")"); };
-  return {.centre = {part("centre_x"), part("centre_y"), part("centre_z")},
-          .velocity = {part("motion_x"), part("motion_y"), part("motion_z")},
-          .radius = part("ball")};
-}
-
-kernels::SweptSphereQuery query(const std::string& name, const std::string& number = "") {
-  return {.sphere = capsule(name),
-          .from = variable<Single>("from" + number),
-          .to = variable<Single>("to" + number)};
-}
-
 /// Returns the term that builds a bound.
 Double term_of_bound(const kernels::Bound& bound) {
   const kernels::Vec3 &x = bound.position, &v = bound.velocity, &g = bound.planned_acceleration;
@@ -86,38 +73,6 @@ Double growth_of_point() {
                                   .spin = variable("spin"),
                                   .spin_growth = variable("spin_growth")};
   return body.of_point({variable("x"), variable("y"), variable("z")}, variable("r")).acceleration_limit;
-}
-
-/// Returns the slots that a search finds, run by run, in a table of these swept spheres.
-std::vector<std::vector<std::uint32_t>> found(const std::vector<kernels::SweptSphere>& spheres,
-                                              const std::vector<kernels::SweptSphereQuery>& queries,
-                                              const std::vector<kernels::SlotRange>& runs) {
-  std::array<std::vector<Single>, 7> columns;
-  for (const kernels::SweptSphere& sphere : spheres) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      columns[axis].push_back(sphere.centre[axis]);
-      columns[3 + axis].push_back(sphere.velocity[axis]);
-    }
-    columns[6].push_back(sphere.radius);
-  }
-  kernels::SweptSphereColumns table;
-  for (std::size_t k = 0; k < columns.size(); ++k) table[k] = columns[k].data();
-  std::vector<std::uint64_t> words(spheres.size() * runs.size());
-  kernels::near_swept_spheres_plain(table, queries, runs, words.data());
-  std::vector<std::vector<std::uint32_t>> answer;
-  const std::uint64_t* word = words.data();
-  for (const kernels::SlotRange& run : runs) {
-    answer.emplace_back();
-    kernels::for_each_near(std::span(&run, 1), word,
-                           [&](std::uint32_t, std::uint32_t place) { answer.back().push_back(place); });
-    word += kernels::words_for(run);
-  }
-  return answer;
-}
-
-/// Returns true if a search leaves a swept sphere out.
-bool left_out(const kernels::SweptSphere& other, const kernels::SweptSphereQuery& one) {
-  return found({other}, {one}, {kernels::SlotRange{.begin = 0, .end = 1}})[0].empty();
 }
 
 std::string kernels_file() {
@@ -168,9 +123,6 @@ std::string kernels_file() {
       [&] { return kernels::BoundBesideBound(bound("a"), bound("b"), from).slack; });
   add("src/bound/rigid_extent.hpp: the growth of RigidExtent::of_point",
       "growth_of_point (limit spin_growth spin x y z : double) : double", growth_of_point);
-  add("src/broadphase/swept_sphere_search_plain.cpp: one capsule of a table",
-      "left_out (other one : capsule) (from to : single) : bool",
-      [] { return left_out(capsule("other"), query("one")); });
   return text;
 }
 
@@ -181,36 +133,6 @@ TEST(KernelTerms, AreThoseThatHaveBeenProved) {
   std::ifstream file(path);
   const std::string proved{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(written, proved) << "the library computes something else than what proof/ is about";
-}
-
-/// Returns the number of outcomes of the comparisons of a search. In each, it must find all swept spheres
-/// that it does not leave out one by one.
-int ways_to_search(const std::vector<kernels::SweptSphere>& spheres,
-                   const std::vector<kernels::SweptSphereQuery>& queries,
-                   const std::vector<kernels::SlotRange>& runs) {
-  int ways = 0;
-  traced::term_of([&] {
-    const auto places = found(spheres, queries, runs);
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      std::vector<std::uint32_t> expected;
-      for (std::uint32_t k = runs[r].begin; k < runs[r].end; ++k)
-        if (!left_out(spheres[k], queries[runs[r].query])) expected.push_back(k);
-      EXPECT_EQ(places[r], expected);
-    }
-    ++ways;
-    return true;
-  });
-  return ways;
-}
-
-TEST(KernelTerms, ASearchLooksAtEachCapsuleByItself) {
-  EXPECT_GT(ways_to_search({capsule("a"), capsule("b")}, {query("c", "_1"), query("d", "_2")},
-                           {{.begin = 0, .end = 2, .query = 1}, {.begin = 1, .end = 2, .query = 0}}),
-            1);
-  // More than the search tests at a time: equal ones, so that all but one have equal answers.
-  std::vector<kernels::SweptSphere> many(70, capsule("a"));
-  many[66] = capsule("b");
-  EXPECT_GT(ways_to_search(many, {query("c")}, {{.begin = 1, .end = 70}, {.begin = 66, .end = 68}}), 1);
 }
 
 }  // namespace

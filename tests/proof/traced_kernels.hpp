@@ -78,8 +78,6 @@ double advance_by_a_step(double from, double until, SafeStep step) {
 #include "bound/certificates.cpp"
 #include "bound/quick_reject.hpp"
 #include "bound/rigid_extent.hpp"
-#include "broadphase/swept_sphere.hpp"
-#include "broadphase/swept_sphere_search_plain.cpp"
 
 #undef advance_by_safe_steps
 #undef first_crossing

@@ -17,7 +17,6 @@
 #include "simulation/run/recorded_scene.hpp"
 #include "simulation/run/run_scene.hpp"
 #include "simulation/scene/make_scene.hpp"
-#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 
 namespace kinesphere::run_test {
@@ -96,19 +95,7 @@ std::string outcome_of(const SceneResult& result) {
   return text.str();
 }
 
-/// Advances a world that finds contacts by windows, as runs with several threads do, in a loop.
-SceneResult looped_in_windows(const Scene& scene) {
-  SceneObserver observer;
-  observer.at_start = [&scene](Detector& detector) {
-    const std::unique_ptr<Motion> motion = scene.motion->clone();
-    Workers two = eager_workers(2).value();
-    return detector.run(
-        detector.time(), *motion, [](const Event&) { return Response(); }, [](const Event&) {}, two);
-  };
-  return run_scene(scene, make_world_detector, observer).value();
-}
-
-/// Runs with these numbers of threads: with one as a loop does, with several as a loop in windows does.
+/// Runs with these numbers of threads, as a loop does.
 class RunScenes : public testing::TestWithParam<std::vector<int>> {
  protected:
   void expect_runs_as_loops(const std::vector<Scene>& scenes) const;
@@ -121,11 +108,9 @@ void RunScenes::expect_runs_as_loops(const std::vector<Scene>& scenes) const {
   for (const Scene& scene : scenes) {
     const SceneResult looped = run_scene(scene, make_world_detector).value();
     EXPECT_GT(looped.counters.probes, 500u) << scene.name;
-    const SceneResult in_windows = looped_in_windows(scene);
     for (const int threads : GetParam()) {
-      const SceneResult& expected = threads == 1 ? looped : in_windows;
-      Workers workers = eager_workers(threads).value();
-      EXPECT_EQ(outcome_of(run_scene(scene, make_world_detector, {}, &workers).value()), outcome_of(expected))
+      Workers workers = Workers::create(threads).value();
+      EXPECT_EQ(outcome_of(run_scene(scene, make_world_detector, {}, &workers).value()), outcome_of(looped))
           << scene.name << " with " << threads << " threads";
     }
   }
@@ -137,7 +122,7 @@ TEST_P(RunScenes, EndsAsALoopDoesWhereManyAreKicked) { expect_runs_as_loops(dens
 
 TEST_P(RunScenes, CanBeRecorded) {
   for (const int threads : GetParam()) {
-    Workers workers = eager_workers(threads).value();
+    Workers workers = Workers::create(threads).value();
     const Scene scene = coming_and_going();
     std::vector<std::byte> recording;
     SceneObserver observer;
@@ -152,7 +137,7 @@ TEST_P(RunScenes, CanBeRecorded) {
 }
 
 TEST(RunScenesWithoutAWay, AreRefused) {
-  Workers workers = eager_workers(1).value();
+  Workers workers = Workers::create(1).value();
   Scene scene = coming_and_going();
   expect_error(run_scene(scene, make_oracle, {}, &workers), ErrorCode::unsupported, "detector", "run:");
   std::vector<Track> tracks;

@@ -7,7 +7,6 @@
 #include "contact/contact_event.hpp"
 #include "kinesphere/inspection.hpp"
 #include "kinesphere/recording.hpp"
-#include "support/in_windows.hpp"
 
 namespace kinesphere::stream {
 
@@ -73,8 +72,6 @@ const Player::Kind& Player::kind_of(std::uint8_t code) {
 
 Player::Player(const Scenario& scenario)
     : truth_(scenario), world_(World::create(scenario.definition()).value()), draw_(scenario) {
-  // A run with several threads is that of windows.
-  if (scenario.runs) use_windows(world_);
   give_rotation_probe(world_);
   if (scenario.recorded) world_.start_recording().value();
   set_sensor();

@@ -11,7 +11,6 @@
 #include "kinesphere/inspection.hpp"
 #include "kinesphere/response.hpp"
 #include "stream/player.hpp"
-#include "support/eager_workers.hpp"
 
 namespace kinesphere::stream {
 namespace {
@@ -247,7 +246,7 @@ class Run {
 
 Workers& Player::workers(int threads) {
   auto& place = workers_[static_cast<std::size_t>(threads - 1)];
-  if (!place) place = eager_workers(threads).value();
+  if (!place) place = Workers::create(threads).value();
   return *place;
 }
 

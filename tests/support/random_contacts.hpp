@@ -18,12 +18,11 @@ struct ContactScene {
   ContactEvents mode;
   double velocity_error;
   std::uint64_t seed;
-  bool windows = false;  ///< the world finds contacts by windows
 };
 
 inline std::ostream& operator<<(std::ostream& out, const ContactScene& kind) {
   return out << (kind.mode == ContactEvents::impacts ? "impacts" : "begin_and_end") << ", velocity error "
-             << kind.velocity_error << ", seed " << kind.seed << (kind.windows ? ", in windows" : "");
+             << kind.velocity_error << ", seed " << kind.seed;
 }
 
 /// The pairs in touch. There are none where the world tells no ends.

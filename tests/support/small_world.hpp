@@ -18,7 +18,6 @@ class SmallWorld {
   explicit SmallWorld(const WorldDefinition& definition = {})
       : state(definition), main(state, definition.start_time) {
     main.reports().ask(probe, "test");
-    state.window_policy.choose(1.0, {.speed = 1.0, .acceleration = 0.0});
   }
   SmallWorld(const SmallWorld&) = delete;
   SmallWorld& operator=(const SmallWorld&) = delete;

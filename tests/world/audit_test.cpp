@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "kinesphere/inspection.hpp"
-#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 #include "support/sealed_snapshot.hpp"
 
@@ -70,7 +69,6 @@ std::optional<AuditFinding> audit(const World& world) { return world.inspection(
 
 struct Approaching : Playground {
   explicit Approaching(double radius_rate = 0.0) {
-    use_windows(world);
     a = add({.radius = 1, .acceleration_limit = 0.01, .velocity = {1, 0, 0}, .radius_rate = radius_rate});
     b = add({.radius = 1, .acceleration_limit = 0.01, .position = {2.5, 0.25, 0}});
     for (double t = 0.01; world.inspection().certificates().empty(); t += 0.01) run(t);
@@ -135,7 +133,6 @@ World in_a_period(double time, double speed) {
   World world =
       World::create({.box = Box{{0, 0, 0}, {8, 8, 8}}, .periodic = {true, true, true}, .start_time = time})
           .value();
-  use_windows(world);
   const Vec3 position{4, 4, 4}, velocity{speed, 0, 0};
   world.add({.radius = 0.1, .position = position, .velocity = velocity}).value();
   const auto probe = [&](std::span<const BodyId>, double now, std::span<State> states) {

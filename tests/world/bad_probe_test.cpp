@@ -5,7 +5,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::bad_probe_test {
@@ -37,14 +36,12 @@ struct Kind {
   const char* name;
   ContactEvents mode;
   bool bounces;
-  bool windows = false;  ///< a world that finds contacts by windows
 };
 
 /// Runs the crowd; `spoil`, if set, ruins the answer to every third probe at first.
 std::vector<Event> run(const Kind& kind, const Spoil& spoil, std::uint64_t& failures) {
   Playground p({.contacts = kind.mode});
   populate(p);
-  if (kind.windows) use_windows(p.world);
   std::vector<Event> events;
   int question = 0;
   bool ruin = false;
@@ -111,10 +108,7 @@ TEST_P(BadProbe, RepeatingTheCallGivesTheSameEvents) {
 INSTANTIATE_TEST_SUITE_P(Kinds, BadProbe,
                          testing::Values(Kind{"BeginAndEnd", ContactEvents::begin_and_end, true},
                                          Kind{"PassThrough", ContactEvents::begin_and_end, false},
-                                         Kind{"Impacts", ContactEvents::impacts, true},
-                                         Kind{"BeginAndEndInWindows", ContactEvents::begin_and_end, true,
-                                              true},
-                                         Kind{"ImpactsInWindows", ContactEvents::impacts, true, true}),
+                                         Kind{"Impacts", ContactEvents::impacts, true}),
                          [](const auto& kind) { return kind.param.name; });
 
 TEST(BadAnswer, NamesTheBodyTheTimeAndWhy) {

@@ -14,7 +14,6 @@
 
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/workers.hpp"
-#include "support/in_windows.hpp"
 
 namespace kinesphere {
 
@@ -32,7 +31,6 @@ struct BouncingWorld {
 
   BouncingWorld(OfMotion moved_by, World empty, double bounciness)
       : motion(std::move(moved_by)), world(std::move(empty)), restitution(bounciness) {
-    use_windows(world);
   }
   /// Adds the next body of the motion.
   void add(const BodyDefinition& body, double mass) {

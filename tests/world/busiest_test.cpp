@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "kinesphere/kinesphere.hpp"
-#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 #include "world/bouncing_world.hpp"
@@ -244,7 +243,7 @@ TEST(Busiest, CountsEachProbeOnceWithAnyNumberOfThreads) {
   for (const BusyBody& busy : expected) EXPECT_LE(busy.largest_acceleration, 5.0);
   for (const int threads : {1, 3}) {
     Balls balls;
-    Workers workers = eager_workers(threads).value();
+    Workers workers = Workers::create(threads).value();
     balls.run(2.0, &workers).value();
     balls.ask_for_some();
     EXPECT_EQ(balls.world.inspection().busiest(all).value(), expected) << threads;

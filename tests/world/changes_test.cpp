@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "number/infinity.hpp"
-#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::changes_test {
@@ -276,16 +275,12 @@ TEST(WrongChange, IsRefusedAndLeavesNoTrace) {
 }
 
 TEST(WrongChange, TwoTeleportsToOnePlaceAtOneStop) {
-  for (const bool windows : {false, true}) {
-    SCOPED_TRACE(windows ? "in windows" : "on the core");
     Playground p({.allow_overlap = false});
-    if (windows) use_windows(p.world);
     const BodyId a = p.add({.radius = 1});
     const BodyId b = p.add({.radius = 1, .position = {8, 0, 0}});
     p.world.teleport(a, {{50, 0, 0}, {}}).value();
     expect_error(p.world.teleport(b, {{50, 1, 0}, {}}), ErrorCode::overlapping, "teleport");
     EXPECT_TRUE(p.world.teleport(b, {{0, 0, 0}, {}})) << "the place is free again";
-  }
 }
 
 TEST(WrongChange, NamesEachNumberThatIsWrong) {

@@ -16,7 +16,6 @@
 #include "kinesphere/queries.hpp"
 #include "kinesphere/response.hpp"
 #include "support/expect_error.hpp"
-#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 #include "support/scenes_of_each.hpp"
 #include "world/mapped_world.hpp"
@@ -379,12 +378,9 @@ TEST(ChangingRadii, PushOffAWallAndShrinkToPoints) {
 
 /// What stands still has no report of the time at which a ball that shrinks is near.
 TEST(ChangingRadii, MeetWhatHasStoodStillForLong) {
-  for (const bool sleeps : {false, true})
-    for (const bool windows : {false, true}) {
-      SCOPED_TRACE(testing::Message()
-                   << (sleeps ? "sleeping" : "static") << (windows ? ", in windows" : ", on the core"));
+  for (const bool sleeps : {false, true}) {
+      SCOPED_TRACE(sleeps ? "sleeping" : "static");
       Playground p({.contact_tolerance = eps});
-      if (windows) use_windows(p.world);
       if (sleeps)
         p.world.sleep(p.add({.radius = 1.0})).value();
       else

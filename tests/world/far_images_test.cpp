@@ -10,8 +10,6 @@
 
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/placement.hpp"
-#include "support/eager_workers.hpp"
-#include "support/in_windows.hpp"
 
 namespace kinesphere::far_images_test {
 namespace {
@@ -88,7 +86,6 @@ class FarSource : public MotionSource {
 // Coordinates reach to 6.6, a little farther than the box, and those of reports to 422.
 TEST(FarImages, ARunGoesOnHoweverFarItsBodiesTravel) {
   Gas gas(3e-12, {4.0, 0.0, 0.0});
-  use_windows(gas.world);
   const double energy = gas.energy();
   for (double time = 10.0; time <= 200.0; time += 10.0) {
     const auto result = gas.run(time);
@@ -97,7 +94,7 @@ TEST(FarImages, ARunGoesOnHoweverFarItsBodiesTravel) {
   EXPECT_GT(gas.events.size(), 5000u);
   EXPECT_NEAR(gas.energy() / energy, 1.0, 1e-9);
   Gas other(3e-12, {4.0, 0.0, 0.0});
-  Workers workers = eager_workers(2).value();
+  Workers workers = Workers::create(2).value();
   ASSERT_TRUE(other.run(200.0, &workers));
   EventHash one, two;
   for (const Event& event : gas.events) one.add(event);

@@ -6,7 +6,6 @@
 #include <optional>
 #include <ostream>
 
-#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::far_period_test {
@@ -59,7 +58,6 @@ class Meeting : public Playground {
         speed(0.99995 * longest_way(place) / window_length(place)),
         goer(add({.radius = half_width, .position = {place.lower + start, 0, 0}, .velocity = {speed, 0, 0}})),
         waiter(add({.radius = half_width, .position = {place.lower + 7, 900, 0}, .velocity = {-1, 0, 0}})) {
-    use_windows(world);
     distort = [this](BodyId, double, State& reported) {
       reported.position.x = place.wrapped(reported.position.x);
     };

@@ -11,8 +11,6 @@
 #include "kinesphere/inspection.hpp"
 #include "kinesphere/queries.hpp"
 #include "kinesphere/random.hpp"
-#include "support/eager_workers.hpp"
-#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::filter_test {
@@ -120,11 +118,8 @@ RigidBody rod_of(const BodyDefinition& body) {
 }
 
 TEST(FilterOfWalls, LetsBodiesPassAndCostsNoProbes) {
-  for (const Filter& filter : let_through)
-    for (const bool windows : {false, true}) {
-      SCOPED_TRACE(windows ? "in windows" : "on the core");
+  for (const Filter& filter : let_through) {
       Playground p(with_filtered_walls);
-      if (windows) use_windows(p.world);
       const BodyDefinition body{.radius = 1, .position = {5, 5, 5}, .velocity = {1, 0, 0}, .filter = filter};
       const BodyId ball = p.add(body);
       BodyDefinition beside = body;
@@ -327,7 +322,7 @@ TEST(PairFilter, IsCalledOnTheThreadThatRuns) {
         return true;
       })
       .value();
-  Workers workers = eager_workers(4).value();
+  Workers workers = Workers::create(4).value();
   p.world
       .run(
           0.5, p.probe(), [](const Event&) {}, &workers)

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "kinesphere/kinesphere.hpp"
-#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 #include "world/bouncing_world.hpp"
@@ -150,7 +149,7 @@ TEST(GlitchingSource, ChangesNothingThatIsTold) {
     for (const std::uint64_t period : {61u, 1009u}) {
       Bouncing found;
       Glitching source(found.motion, period);
-      Workers workers = eager_workers(threads).value();
+      Workers workers = Workers::create(threads).value();
       int errors = 0;
       for (;;) {
         const auto run = found.world.run(

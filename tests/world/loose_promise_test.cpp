@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "kinesphere/kinesphere.hpp"
-#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 
 namespace kinesphere::loose_promise_test {
@@ -48,7 +47,7 @@ TEST(LoosePromise, IsNamedInARunToo) {
   const auto sink = [](const Event&) {};
   expect_error(alone.world.run(1.0, alone.probe(), sink), ErrorCode::out_of_range, "acceleration_limit",
                "run: ", alone.body);
-  Workers workers = eager_workers(2).value();
+  Workers workers = Workers::create(2).value();
   Row row({.acceleration_limit = 1e30});
   expect_error(row.world.run(1.0, row.probe(), sink, &workers), ErrorCode::out_of_range, "acceleration_limit",
                "run: ", row.body);

@@ -12,8 +12,6 @@
 #include "kinesphere/event_hash.hpp"
 #include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"
-#include "support/eager_workers.hpp"
-#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere {
@@ -47,8 +45,7 @@ struct MappedWorld {
 template <class Scene>
 void expect_the_same_with_threads_and_from_snapshots(int threads, double half, std::size_t least_events) {
   Scene alone, threaded;
-  use_windows(alone.world);
-  Workers workers = eager_workers(threads).value();
+  Workers workers = Workers::create(threads).value();
   EXPECT_EQ(alone.run(half), threaded.run(half, &workers));
   EXPECT_GT(alone.events, least_events);
   const auto snapshot = alone.world.save().value();

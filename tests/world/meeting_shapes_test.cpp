@@ -15,9 +15,7 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/response.hpp"
 #include "number/infinity.hpp"
-#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
-#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 #include "support/random_contacts.hpp"
 #include "support/scenes_of_each.hpp"
@@ -137,7 +135,6 @@ class RandomMeetings : public testing::TestWithParam<ContactScene> {
   };
 
   RandomMeetings() : p({.contact_tolerance = eps, .contacts = GetParam().mode}), random(GetParam().seed) {
-    if (GetParam().windows) use_windows(p.world);
     for (const Shape& shape : {Shape(HalfSpace{{0, 0.6, 0.8}, -2.0}), Shape(Box{{1, -1, -1}, {1.5, 1, 1}}),
                                Shape(Triangle{{-2, -1, 0.5}, {-1, 1.5, 0}, {-1.5, 0, 1.5}}),
                                Shape(Ball{{0, 1.5, 1.2}, 0.4}), folded({-1, -1, -1}, 1.5)})
@@ -300,7 +297,7 @@ INSTANTIATE_TEST_SUITE_P(, RandomMeetings,
                               ContactScene{ContactEvents::begin_and_end, 0.02, 2},
                               ContactScene{ContactEvents::impacts, 0.0, 3},
                               ContactScene{ContactEvents::impacts, 0.01, 4},
-                              ContactScene{ContactEvents::begin_and_end, 0.02, 5, true}})));
+                              ContactScene{ContactEvents::begin_and_end, 0.02, 5}})));
 
 // What events say.
 
@@ -544,8 +541,7 @@ struct Heap : MappedWorld<Ballistic> {
 TEST(MeetingShapes, RunTheSameWithThreadsAndFromSnapshots) {
   expect_the_same_with_threads_and_from_snapshots<Heap>(4, 2.0, 100);
   Heap alone, threaded;
-  use_windows(alone.world);
-  Workers workers = eager_workers(4).value();
+  Workers workers = Workers::create(4).value();
   alone.run(2.0);
   threaded.run(2.0, &workers);
   EXPECT_EQ(alone.world.save().value(), threaded.world.save().value());

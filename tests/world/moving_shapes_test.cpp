@@ -15,7 +15,6 @@
 #include "kinesphere/response.hpp"
 #include "number/infinity.hpp"
 #include "support/expect_error.hpp"
-#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 #include "support/random_contacts.hpp"
 #include "support/scenes_of_each.hpp"
@@ -30,7 +29,6 @@ constexpr double eps = 1e-5;
 class RandomMovingShapes : public testing::TestWithParam<ContactScene> {
  protected:
   RandomMovingShapes() : p({.contact_tolerance = eps, .contacts = GetParam().mode}), random(GetParam().seed) {
-    if (GetParam().windows) use_windows(p.world);
     for (int k = 0; k < 6; ++k) come();
     for (int k = 0; k < 8; ++k) balls.push_back(p.add(any_body()));
   }
@@ -206,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(, RandomMovingShapes,
                               ContactScene{ContactEvents::begin_and_end, 0.5, 2},
                               ContactScene{ContactEvents::impacts, 0.0, 3},
                               ContactScene{ContactEvents::impacts, 0.01, 4},
-                              ContactScene{ContactEvents::begin_and_end, 0.5, 5, true}})));
+                              ContactScene{ContactEvents::begin_and_end, 0.5, 5}})));
 
 constexpr Box plate{{-1, -1, 0}, {1, 1, 0.5}};
 

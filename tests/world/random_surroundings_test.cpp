@@ -5,7 +5,6 @@
 #include <set>
 
 #include "kinesphere/certificates.hpp"
-#include "support/in_windows.hpp"
 #include "support/random_contacts.hpp"
 #include "world/surroundings.hpp"
 
@@ -18,7 +17,6 @@ constexpr double size = 8.0;
 class RandomSurroundings : public testing::TestWithParam<ContactScene> {
  protected:
   RandomSurroundings() : p({.contact_tolerance = eps, .contacts = GetParam().mode}), random(GetParam().seed) {
-    if (GetParam().windows) use_windows(p.world);
     for (int k = 0; k < 12; ++k) come();
     for (int k = 0; k < 8; ++k) join();
   }
@@ -196,8 +194,7 @@ INSTANTIATE_TEST_SUITE_P(, RandomSurroundings,
                                          ContactScene{ContactEvents::begin_and_end, 0.0, 4},
                                          ContactScene{ContactEvents::impacts, 0.0, 5},
                                          ContactScene{ContactEvents::impacts, 0.0, 6},
-                                         ContactScene{ContactEvents::begin_and_end, 0.0, 3, true},
-                                         ContactScene{ContactEvents::impacts, 0.0, 8, true}));
+                                         ContactScene{ContactEvents::impacts, 0.0, 8}));
 
 }  // namespace
 }  // namespace kinesphere::random_surroundings_test

@@ -15,9 +15,7 @@
 
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/workers.hpp"
-#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
-#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::response_actions_test {
@@ -35,7 +33,6 @@ struct Game {
   std::size_t stops = 0;
 
   Game(World empty, std::unique_ptr<Motion> moved_by) : world(std::move(empty)), crowd(std::move(moved_by)) {
-    use_windows(world);
   }
   virtual ~Game() = default;
 
@@ -282,7 +279,7 @@ TEST_P(ResponseActions, AreThoseOfALoop) {
   EXPECT_EQ(looped.kind.removes, looped.world.size() < looped.crowd->size() - 100);
   for (const int threads : looped.kind.threads) {
     SCOPED_TRACE(threads);
-    Workers workers = eager_workers(threads).value();
+    Workers workers = Workers::create(threads).value();
     Shooting run(GetParam());
     for (const double part : {0.01, 0.3, 0.3, 1.0}) run.run(part * run.kind.end, &workers).value();
     expect_same_course(run, looped);
@@ -376,7 +373,7 @@ TEST(ResponsesAtOneInstant, AreThoseOfALoop) {
   looped.loop(2.0);
   for (const int threads : {1, 2, 3}) {
     SCOPED_TRACE(threads);
-    Workers workers = eager_workers(threads).value();
+    Workers workers = Workers::create(threads).value();
     Volley run;
     run.run(0.1, &workers).value();
     run.run(2.0, &workers).value();
@@ -393,7 +390,7 @@ TEST(ResponsesAtOneInstant, AreThoseOfALoop) {
 TEST(ResponseActions, AreRecordedAndReplayed) {
   const Kind kind{.name = "recorded", .sensors = true, .fixed = true, .stop = 64};
   Shooting looped(kind), run(kind);
-  Workers workers = eager_workers(2).value();
+  Workers workers = Workers::create(2).value();
   run.world.start_recording().value();
   looped.loop(1.0);
   run.run(1.0, &workers).value();
@@ -409,7 +406,7 @@ TEST(ResponseActions, AreRecordedAndReplayed) {
 
 TEST(ResponseActions, LeaveAWorldThatCanBeSaved) {
   Shooting run({.name = "saved", .sensors = true, .fixed = true, .stop = 64});
-  Workers workers = eager_workers(2).value();
+  Workers workers = Workers::create(2).value();
   run.run(1.0, &workers).value();
   World restored = World::restore(run.world.save().value()).value();
   const auto on = [&](World& world) {
@@ -517,7 +514,7 @@ TEST(ResponseActions, LeaveTheRestToTheMap) {
 /// A sink that ends the run at each stop leaves the world at that event, and another run goes on behind it.
 TEST(EndRun, AtEachStopHasTheCourseOfOneRun) {
   for (const int threads : {1, 3}) {
-    Workers workers = eager_workers(threads).value();
+    Workers workers = Workers::create(threads).value();
     const Kind kind{.name = "stops", .stop = 50};
     Shooting whole(kind), parts(kind);
     ASSERT_TRUE(whole.run(kind.end, &workers));
@@ -542,7 +539,7 @@ TEST(EndRun, AtEachStopHasTheCourseOfOneRun) {
 
 TEST(EndRun, ElsewhereKeepsTheEventsThatAreStillToCome) {
   Shooting whole({.name = "whole"}), parts({.name = "parts"});
-  Workers workers = eager_workers(3).value();
+  Workers workers = Workers::create(3).value();
   whole.world.end_run();  // no effect outside a sink
   ASSERT_TRUE(whole.run(2.0, &workers));
   EXPECT_EQ(whole.world.time(), 2.0);

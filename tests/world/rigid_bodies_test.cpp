@@ -16,10 +16,9 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"
+#include "kinesphere/workers.hpp"
 #include "number/infinity.hpp"
-#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
-#include "support/in_windows.hpp"
 #include "support/placed_parts.hpp"
 #include "support/scenes_of_each.hpp"
 #include "support/spin.hpp"
@@ -565,13 +564,12 @@ TEST_F(FreeFlight, RunGivesWhatALoopGives) {
   for (EventHash& hash : hashes) {
     Ballistic motion = Ballistic::create({.start = start}).value();
     World world = World::create({.contacts = ContactEvents::impacts}).value();
-    use_windows(world);
     BodyMap bodies;
     for (std::uint32_t k = 0; k < start.size(); ++k)
       bodies.add_rigid_body(world, motion, k, dumbbell({}, {}, {0, 0.5, 1.0 * k})).value();
     if (&hash == hashes) {
       auto source = bodies.source();
-      Workers workers = eager_workers(2).value();
+      Workers workers = Workers::create(2).value();
       world
           .run(
               20, source, [](const Event& event) { return response_of(event, bounce(event, 1.0)); },

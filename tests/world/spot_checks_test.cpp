@@ -11,8 +11,6 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/recording.hpp"
 #include "kinesphere/workers.hpp"
-#include "support/eager_workers.hpp"
-#include "support/in_windows.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::spot_checks_test {
@@ -125,14 +123,12 @@ TEST_P(Newcomers, AreToldInOneCall) {
 /// By a run too, with as many probes, whatever shares the work.
 TEST_P(Newcomers, AreToldByARun) {
   Newcomer looped(GetParam(), 2);
-  use_windows(looped.world);
   EventHash loop;
   for (const Event& event : looped.world.events(20.0, looped.probe())) loop.add(event);
   for (const int threads : {1, 3}) {
     Newcomer run(GetParam(), 2);
-    use_windows(run.world);
     EventHash hash;
-    Workers workers = eager_workers(threads).value();
+    Workers workers = Workers::create(threads).value();
     const auto sink = [&](const Event& event) { hash.add(event); };
     run.world.run(20.0, run.probe(), sink, &workers).value();
     EXPECT_EQ(hash.value(), loop.value()) << threads;

@@ -1,4 +1,4 @@
-// ResponseHandler responds to events during World::run().
+// What a response to an event says of the bodies, and how it is applied to their motions.
 #pragma once
 
 #include <array>
@@ -9,21 +9,6 @@
 #include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
-
-/// Implementations may be called by several threads concurrently, for different bodies.
-class ResponseHandler {
- public:
-  virtual ~ResponseHandler() = default;
-
-  /// Returns the response to the event. Errors: an invalid response.
-  virtual Result<Response> respond(const Event& event) = 0;
-  /// Sets the origins of the event's bodies according to the response. Errors: an invalid state. After an
-  /// error or an exception all origins are unchanged.
-  virtual Result<void> apply(const Event& event, const Response& answer) = 0;
-  virtual MotionOrigin origin(BodyId body) = 0;
-  /// Restores an origin, to roll back responses.
-  virtual void set_origin(BodyId body, const MotionOrigin& origin) = 0;
-};
 
 /// What a response says of one body of its event. Refers to the response.
 struct BodyResponse {

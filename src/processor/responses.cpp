@@ -1,4 +1,4 @@
-#include "processor/response_handler.hpp"
+#include "processor/responses.hpp"
 
 #include <span>
 
