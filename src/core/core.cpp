@@ -92,7 +92,7 @@ void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
   }
   for (const std::uint32_t number : settling_)
     if (!balls_[number].is(Ball::passive)) note_change(number, host);
-  for (const std::uint32_t number : settling_) schedule(number, true, host);
+  for (const std::uint32_t number : settling_) schedule(number, false, host);
   if (balls_.size() <= 2 * queued_for_) return;
   queue_.refill(balls_.all(), balls_.time());
   queued_for_ = balls_.size();

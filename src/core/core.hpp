@@ -186,7 +186,7 @@ class Core {
 
   // scan.cpp
   void note_change(std::uint32_t number, Host& host);
-  void schedule(std::uint32_t number, bool has_changed, Host& host);
+  void schedule(std::uint32_t number, bool is_last, Host& host);
   std::span<const std::uint32_t> looked_out_for(std::uint32_t number,
                                                 std::span<const std::uint32_t> neighbours,
                                                 std::span<std::uint32_t> room) const;
