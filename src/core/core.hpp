@@ -104,6 +104,9 @@ class Core {
   }
   /// Returns true if a ball with this bound, which was read from bytes, can have a safe region at `time`.
   bool can_hold(const Bound& bound, double time) const;
+  /// Returns true if the ball may leave its safe region at `time`: it reports before it gets another one, so
+  /// its bound may be of any size.
+  bool reports_now(std::uint32_t number, double time) const;
   /// Makes the rest anew after reading, at this time. Returns false if no core could have been so.
   bool rebuild(double time);
 

@@ -21,7 +21,8 @@ void Core::note_change(std::uint32_t number, Host& host) {
 }
 
 /// Computes when a ball is due: at its own time, or when something may happen between it and a neighbour that
-/// it looks out for, if that is earlier. `is_last`: it has changed last of all of them, so it looks out for all.
+/// it looks out for, if that is earlier. `is_last`: it has changed last of all of them, so it looks out for
+/// all.
 void Core::schedule(std::uint32_t number, bool is_last, Host& host) {
   Ball& ball = balls_[number];
   if (ball.is(Ball::passive)) return;
