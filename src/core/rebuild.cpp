@@ -77,8 +77,8 @@ bool Core::can_hold(const Bound& bound, double time) const {
 bool Core::reports_now(std::uint32_t number, double time) const {
   if (!contains(number)) return false;
   const Ball& ball = balls_[number];
-  return !ball.is(Ball::arriving) && ball.about == none && !ball.is(Ball::at_wall) &&
-         ball.due <= time && ball.time < time;
+  return !ball.is(Ball::arriving) && ball.about == none && !ball.is(Ball::at_wall) && ball.due <= time &&
+         ball.time < time;
 }
 
 bool Core::rebuild(double time) {
