@@ -1,7 +1,7 @@
 // PeriodicImage records which image of a body is stored in periodic space.
 //
-// Two bodies can meet in the image in which the centres of their swept spheres are nearest (space/space.hpp).
-// A bound is in one image: a report is shifted to the image nearest to the bound, and each new swept sphere
+// Two bodies can meet in the image in which the centres of their safe regions are nearest (space/space.hpp).
+// A bound is in one image: a report is shifted to the image nearest to the bound, and each new safe region
 // moves both to the primary box. The only static bodies in periodic space are balls, whose bounds stand
 // still.
 #pragma once
