@@ -5,7 +5,7 @@ From Coq Require Import Reals Lra List.
 From Flocq Require Import Core BinarySingleNaN.
 From Kinesphere Require floats inputs kernels earliest_meeting meeting_facts.
 From Kinesphere Require Import core_machine.
-From Kinesphere Require Import geometry_vectors geometry_motion geometry_bounds geometry_certificates geometry_search.
+From Kinesphere Require Import geometry_vectors geometry_motion geometry_bounds geometry_certificates geometry_rejection.
 From Kinesphere Require Import geometry_knowledge geometry_regions contact_of_bodies.
 Open Scope R_scope.
 Notation B := (B2R (prec := 53) (emax := 1024)).

@@ -5,11 +5,8 @@ From Flocq Require Import Core.Core IEEE754.BinarySingleNaN.
 
 Global Instance double_prec : Prec_gt_0 53 := eq_refl.
 Global Instance double_emax : Prec_lt_emax 53 1024 := eq_refl.
-Global Instance single_prec : Prec_gt_0 24 := eq_refl.
-Global Instance single_emax : Prec_lt_emax 24 128 := eq_refl.
 
 Notation double := (binary_float 53 1024).
-Notation single := (binary_float 24 128).
 
 Section Format.
 

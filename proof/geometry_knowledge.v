@@ -1,6 +1,6 @@
 (* A fact about two bodies speaks of their true motion, so it outlives every report. *)
 From Coq Require Import Reals Lra List.
-From Kinesphere Require Import geometry_vectors geometry_motion geometry_bounds geometry_certificates geometry_search.
+From Kinesphere Require Import geometry_vectors geometry_motion geometry_bounds geometry_certificates.
 Open Scope R_scope.
 
 Record report : Type := Report { at_time : R; at_place : vector; with_velocity : vector }.
@@ -55,30 +55,6 @@ Proof.
            (at_place y) (with_velocity y) distance Ka Kb);
     try exact Ta; try exact Tb; try lra.
   apply L. lra.
-Qed.
-
-(* A swept sphere that was made at some time from a report contains the body, with its margin, until its window ends,
-   whatever has been or will be reported besides. *)
-Theorem swept_sphere_outlives_every_report (b : body) (t0 t1 made T margin : R) (x : report) (reports : list report) (m : motion)
-  (t : R) (point : vector) :
-  0 <= e1 b -> 0 <= A b -> possible b t0 t1 reports m -> In x reports -> at_time x <= made <= t -> t <= made + T ->
-  t <= t1 ->
-  let then_ := moved_on (bound_from b x) (made - at_time x) in
-  in_ball point (place m t) (r b + margin) ->
-  in_ball point (start then_ + (t - made) * speed then_) (swept_sphere_radius then_ margin T).
-Proof.
-  intros P1 P2 [K R] Hx Ht HT Ht1 then_ I. destruct (R x Hx) as [H Tr].
-  apply (body_stays_in_its_swept_sphere b m t0 t1 (at_time x) (made - at_time x) T (t - made) margin); auto; try lra.
-  replace (at_time x + (made - at_time x) + (t - made)) with t by ring. exact I.
-Qed.
-
-(* Fact (a). While two swept spheres do not touch, the gap of the bodies in them is above the sum of their margins. *)
-Theorem bodies_in_swept_spheres_that_do_not_touch_are_apart (x y cx cy : vector) (rx ry margin_x margin_y kx ky : R) :
-  norm (x - cx) + rx + margin_x <= kx -> norm (y - cy) + ry + margin_y <= ky -> kx + ky < norm (cx - cy) ->
-  margin_x + margin_y < norm (x - y) - rx - ry.
-Proof.
-  intros Hx Hy H. generalize (norm_by_way_of x cx cy) (norm_by_way_of y x cy).
-  rewrite (norm_symmetric cx x). lra.
 Qed.
 
 (* A report that keeps the promise never raises a bound violation: `broken_promise` compares with the most that two true

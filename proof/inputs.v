@@ -1,5 +1,4 @@
-(* Inputs of the kernels: the bound of a body (include/kinesphere/bound.hpp) and a swept sphere in single precision
-   (src/broadphase/swept_sphere.hpp). *)
+(* Input of the kernels: the bound of a body (include/kinesphere/bound.hpp). *)
 From Flocq Require Import IEEE754.BinarySingleNaN.
 From Kinesphere Require Import floats.
 
@@ -12,12 +11,3 @@ Record bound := {
   growth_speed : double;
   acceleration_limit : double
 }.
-
-Record swept_sphere := {
-  centre_x : single; centre_y : single; centre_z : single;
-  motion_x : single; motion_y : single; motion_z : single;
-  ball : single
-}.
-
-(* The name in kernels.v, which a test writes. *)
-Notation capsule := swept_sphere (only parsing).

@@ -22,7 +22,7 @@ constexpr float narrowest = 0x1p-20F;
 
 /// Part of all lengths of a stretch by which its radius is enlarged, and what is added to that in units of
 /// the grid: more than near_stretches() needs, and than all roundings here.
-constexpr double part_lost_in_cells = 0x1p-18, least_lost = 0x1p-40;
+constexpr double length_lost = 0x1p-18, unit_lost = 0x1p-40;
 
 /// Returns a number that grows with the binary logarithm of the width, below 256.
 std::uint32_t octave_of(float width) { return bit_cast<std::uint32_t>(width) >> 23; }
@@ -74,8 +74,8 @@ void StretchGrid::convert(std::span<const Stretch> stretches) {
       entry.half_way[static_cast<std::size_t>(axis)] = static_cast<float>(scaled(stretch.half_way[axis]));
     }
     const double size = norm_one(middle) + norm_one(stretch.half_way) + stretch.radius;
-    const double lost = part_lost_in_cells * size + 0x1p-48 * (norm_one(stretch.middle) + norm_one(base));
-    entry.radius = static_cast<float>(scaled(stretch.radius + lost) + least_lost);
+    const double lost = length_lost * size + 0x1p-48 * (norm_one(stretch.middle) + norm_one(base));
+    entry.radius = static_cast<float>(scaled(stretch.radius + lost) + unit_lost);
     entry.number = stretch.number;
   }
 }

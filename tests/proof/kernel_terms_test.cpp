@@ -24,7 +24,6 @@ namespace kernels = traced_kinesphere;
 using traced::call;
 using traced::definition;
 using traced::Double;
-using traced::Single;
 using traced::variable;
 
 Double field(const std::string& of, const std::string& name) { return variable(of + ".(" + name + ")"); }
@@ -87,7 +86,7 @@ std::string kernels_file() {
       "From Kinesphere Require Import floats inputs.\n"
       "Local Open Scope float_scope.\n";
   const auto add = [&](const std::string& where, const std::string& head,
-                       const std::function<traced::Answer()>& kernel) {
+                       const std::function<Double()>& kernel) {
     text += "\n(* " + where + " *)\n" + definition(head, kernel);
   };
   const std::string rounding = "src/bound/rounding.hpp";

@@ -38,7 +38,6 @@ using namespace kinesphere;  // NOLINT
 #pragma clang diagnostic ignored "-Wkeyword-macro"
 #endif
 #define double traced::Double
-#define float traced::Single
 #define std traced_std
 #define kinesphere traced_kinesphere
 
@@ -87,5 +86,4 @@ double advance_by_a_step(double from, double until, SafeStep step) {
 #undef widened
 #undef kinesphere
 #undef std
-#undef float
 #undef double

@@ -69,69 +69,61 @@ inline bool decide(const Node* condition) {
   return found->second;
 }
 
-/// The width is that of the mantissa: 53 for double precision, 24 for single.
-template <int width>
-class Number {
+/// A double.
+class Double {
  public:
-  constexpr Number() = default;
+  constexpr Double() = default;
   template <class Value, class = std::enable_if_t<std::is_arithmetic_v<Value>>>
-  constexpr Number(Value value) : constant_(rounded(static_cast<double>(value))) {}  // NOLINT
-  explicit Number(const Node* node) : node_(node) {}
-  /// Rounded to another width.
-  template <int other, class = std::enable_if_t<other != width>>
-  explicit Number(Number<other> value)
-      : node_(node_of(width == 24 ? "single_of" : "double_of", {value.node()})) {}
+  constexpr Double(Value value) : constant_(static_cast<double>(value)) {}  // NOLINT
+  explicit Double(const Node* node) : node_(node) {}
 
   const Node* node() const { return node_ != nullptr ? node_ : literal(constant_); }
 
-  friend constexpr Number operator+(Number a, Number b) {
+  friend constexpr Double operator+(Double a, Double b) {
     if (std::is_constant_evaluated()) return a.constant_ + b.constant_;
     return binary("+", a, b);
   }
-  friend constexpr Number operator-(Number a, Number b) {
+  friend constexpr Double operator-(Double a, Double b) {
     if (std::is_constant_evaluated()) return a.constant_ - b.constant_;
     return binary("-", a, b);
   }
-  friend constexpr Number operator*(Number a, Number b) {
+  friend constexpr Double operator*(Double a, Double b) {
     if (std::is_constant_evaluated()) return a.constant_ * b.constant_;
     return binary("*", a, b);
   }
-  friend constexpr Number operator/(Number a, Number b) {
+  friend constexpr Double operator/(Double a, Double b) {
     if (std::is_constant_evaluated()) return a.constant_ / b.constant_;
     return binary("/", a, b);
   }
-  friend constexpr Number operator-(Number a) {
+  friend constexpr Double operator-(Double a) {
     if (std::is_constant_evaluated()) return -a.constant_;
-    return Number(node_of("-", {a.node()}));
+    return Double(node_of("-", {a.node()}));
   }
-  constexpr Number& operator+=(Number b) { return *this = *this + b; }
-  constexpr Number& operator-=(Number b) { return *this = *this - b; }
-  constexpr Number& operator*=(Number b) { return *this = *this * b; }
+  constexpr Double& operator+=(Double b) { return *this = *this + b; }
+  constexpr Double& operator-=(Double b) { return *this = *this - b; }
+  constexpr Double& operator*=(Double b) { return *this = *this * b; }
 
-  friend constexpr bool operator<(Number a, Number b) {
+  friend constexpr bool operator<(Double a, Double b) {
     if (std::is_constant_evaluated() || are_constant(a, b)) return a.constant_ < b.constant_;
     return compare("<?", a, b);
   }
-  friend constexpr bool operator<=(Number a, Number b) {
+  friend constexpr bool operator<=(Double a, Double b) {
     if (std::is_constant_evaluated() || are_constant(a, b)) return a.constant_ <= b.constant_;
     return compare("<=?", a, b);
   }
-  friend constexpr bool operator==(Number a, Number b) {
+  friend constexpr bool operator==(Double a, Double b) {
     if (std::is_constant_evaluated() || are_constant(a, b)) return a.constant_ == b.constant_;
     return compare("=?", a, b);
   }
-  friend constexpr bool operator>(Number a, Number b) { return b < a; }
-  friend constexpr bool operator>=(Number a, Number b) { return b <= a; }
+  friend constexpr bool operator>(Double a, Double b) { return b < a; }
+  friend constexpr bool operator>=(Double a, Double b) { return b <= a; }
 
  private:
-  static constexpr double rounded(double value) {
-    return width == 24 ? static_cast<double>(static_cast<float>(value)) : value;
+  static constexpr bool are_constant(Double a, Double b) { return a.node_ == nullptr && b.node_ == nullptr; }
+  static Double binary(const char* operation, Double a, Double b) {
+    return Double(node_of(operation, {a.node(), b.node()}));
   }
-  static constexpr bool are_constant(Number a, Number b) { return a.node_ == nullptr && b.node_ == nullptr; }
-  static Number binary(const char* operation, Number a, Number b) {
-    return Number(node_of(operation, {a.node(), b.node()}));
-  }
-  static bool compare(const std::string& operation, Number a, Number b) {
+  static bool compare(const std::string& operation, Double a, Double b) {
     return decide(node_of(operation, {a.node(), b.node()}));
   }
 
@@ -139,13 +131,7 @@ class Number {
   double constant_ = 0.0;
 };
 
-using Double = Number<53>;
-using Single = Number<24>;
-
-template <class Value = Double>
-Value variable(const std::string& name) {
-  return Value(node_of(name));
-}
+inline Double variable(const std::string& name) { return Double(node_of(name)); }
 
 /// The result of another term with these arguments.
 template <class... Values>
@@ -153,24 +139,15 @@ Double call(const std::string& term, Values... values) {
   return Double(node_of(term, {values.node()...}));
 }
 
-/// The result of a function: numbers, or a yes or no.
-struct Answer {
-  std::vector<const Node*> parts;
-
-  Answer(bool yes) : parts{node_of(yes ? "true" : "false")} {}             // NOLINT
-  Answer(Double value) : parts{value.node()} {}                            // NOLINT
-  Answer(std::vector<const Node*> several) : parts(std::move(several)) {}  // NOLINT
-};
-
 struct Term {
   const Node* condition = nullptr;
   std::unique_ptr<Term> yes, no;
-  std::vector<const Node*> answer;
+  const Node* answer = nullptr;
 };
 
-inline Term term_of(const std::function<Answer()>& function) {
+inline Term term_of(const std::function<Double()>& function) {
   try {
-    return {.answer = function().parts};
+    return {.answer = function().node()};
   } catch (const Undecided& undecided) {
     bool& decided = decisions()[undecided.condition];
     Term term{.condition = undecided.condition};
@@ -202,7 +179,7 @@ class Printer {
       count(*term.yes);
       count(*term.no);
     }
-    for (const Node* part : term.answer) count(part);
+    if (term.answer != nullptr) count(term.answer);
   }
   void count(const Node* node) {
     if (uses_[node]++ > 0) return;
@@ -220,13 +197,8 @@ class Printer {
     const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
     const auto introduce = [&](const Node* node) { name_parts(node, indent, names, named); };
     if (term.condition == nullptr) {
-      for (const Node* part : term.answer)
-        for (const Node* operand : part->operands) introduce(operand);
-      text_ << indent;
-      if (term.answer.size() > 1) text_ << "(";
-      for (std::size_t k = 0; k < term.answer.size(); ++k)
-        text_ << (k > 0 ? ", " : "") << expression(term.answer[k], names, false);
-      if (term.answer.size() > 1) text_ << ")";
+      for (const Node* operand : term.answer->operands) introduce(operand);
+      text_ << indent << expression(term.answer, names, false);
       return;
     }
     for (const Node* operand : term.condition->operands) introduce(operand);
@@ -272,7 +244,7 @@ class Printer {
 };
 
 /// Returns a definition of this name.
-inline std::string definition(const std::string& head, const std::function<Answer()>& function) {
+inline std::string definition(const std::string& head, const std::function<Double()>& function) {
   const Term term = term_of(function);
   return "Definition " + head + " :=\n" + Printer(term).text() + ".\n";
 }
@@ -285,22 +257,12 @@ namespace traced_std {
 using namespace std;  // NOLINT
 using std::abs, std::sqrt, std::isinf, std::isfinite, std::max, std::min;
 
-template <int width>
-traced::Number<width> abs(traced::Number<width> x) {
-  return traced::Number<width>(traced::node_of("magnitude", {x.node()}));
+inline traced::Double abs(traced::Double x) {
+  return traced::Double(traced::node_of("magnitude", {x.node()}));
 }
-template <int width>
-traced::Number<width> sqrt(traced::Number<width> x) {
-  return traced::Number<width>(traced::node_of("root", {x.node()}));
-}
-template <int width>
-bool isinf(traced::Number<width> x) {
-  return traced::decide(traced::node_of("infinite", {x.node()}));
-}
-template <int width>
-bool isfinite(traced::Number<width> x) {
-  return traced::decide(traced::node_of("is_finite", {x.node()}));
-}
+inline traced::Double sqrt(traced::Double x) { return traced::Double(traced::node_of("root", {x.node()})); }
+inline bool isinf(traced::Double x) { return traced::decide(traced::node_of("infinite", {x.node()})); }
+inline bool isfinite(traced::Double x) { return traced::decide(traced::node_of("is_finite", {x.node()})); }
 inline traced::Double max(traced::Double a, traced::Double b) { return a < b ? b : a; }
 inline traced::Double min(traced::Double a, traced::Double b) { return b < a ? b : a; }
 
@@ -310,10 +272,6 @@ template <>
 struct numeric_limits<traced::Double> {
   static constexpr traced::Double min() { return std::numeric_limits<double>::min(); }
   static constexpr traced::Double infinity() { return std::numeric_limits<double>::infinity(); }
-};
-template <>
-struct numeric_limits<traced::Single> {
-  static constexpr traced::Single infinity() { return std::numeric_limits<float>::infinity(); }
 };
 
 }  // namespace traced_std

@@ -1,6 +1,5 @@
-(* Which pairs may be left out: the quick rejection of two bounds, the swept spheres of a search (Lemma 8), and the test
-   of two swept spheres (Lemma 9, over the real numbers). *)
-From Coq Require Import Reals Lra Psatz List.
+(* Which pairs may be left out: the quick rejection of two bounds, and the ball that goes straight on and holds a body. *)
+From Coq Require Import Reals Lra Psatz.
 From Kinesphere Require Import quadratic geometry_vectors geometry_motion geometry_bounds geometry_certificates.
 Open Scope R_scope.
 
@@ -159,18 +158,17 @@ Proof.
   unfold F at 2. lra.
 Qed.
 
-(* Lemma 8. A swept sphere is a ball that moves straight on from X with V, with the radius
-   R + margin + (b + (a + |g|_1) T / 2) T. From now until T later the bound lies in it, and with it the body, with its
-   margin. *)
-Definition swept_sphere_radius (b : bound) (margin T : R) : R :=
+(* `BoundAt::radius_after`: the radius R + margin + (b + (a + |g|_1) T / 2) T. A ball of that radius that goes straight on
+   from X with V holds, from now until T later, the bound, and with it the body, with its margin. *)
+Definition radius_after (b : bound) (margin T : R) : R :=
   size b + margin + (growth_speed b + (growth b + norm_one (plan b)) * T / 2) * T.
 
-Lemma bound_stays_near_its_swept_sphere (b : bound) (margin T d : R) : 0 <= growth_speed b -> 0 <= growth b -> 0 <= d <= T ->
-  norm (c b d - (start b + d * speed b)) + rho b d + margin <= swept_sphere_radius b margin T.
+Lemma bound_stays_near_its_straight_way (b : bound) (margin T d : R) : 0 <= growth_speed b -> 0 <= growth b -> 0 <= d <= T ->
+  norm (c b d - (start b + d * speed b)) + rho b d + margin <= radius_after b margin T.
 Proof.
   intros P1 P2 Hd.
   replace (c b d - (start b + d * speed b))%vector with ((d * d / 2) * plan b)%vector by (unfold c; by_coordinates).
-  rewrite norm_times, Rabs_pos_eq by nra. unfold rho, swept_sphere_radius.
+  rewrite norm_times, Rabs_pos_eq by nra. unfold rho, radius_after.
   generalize (norm_at_most_norm_one (plan b)) (norm_one_positive (plan b)) (norm_positive (plan b)). intros N1 N2 N3.
   set (K := norm_one (plan b)) in *.
   assert (d * d <= T * T) by nra.
@@ -180,131 +178,20 @@ Proof.
   lra.
 Qed.
 
-Theorem body_stays_in_its_swept_sphere (b : body) (m : motion) (t0 t1 t s T d margin : R) (p q point : vector) :
+Theorem body_stays_near_its_straight_way (b : body) (m : motion) (t0 t1 t s T d margin : R) (p q point : vector) :
   0 <= e1 b -> 0 <= A b -> keeps_promise b m t0 t1 -> t0 <= t -> 0 <= s -> 0 <= d <= T -> t + s + d <= t1 ->
   true_report b m t p q ->
   let now := moved_on (bound_of b p q) s in
   in_ball point (place m (t + s + d)) (r b + margin) ->
-  in_ball point (start now + d * speed now) (swept_sphere_radius now margin T).
+  in_ball point (start now + d * speed now) (radius_after now margin T).
 Proof.
   intros P1 P2 K Ht Hs Hd Ht1 Tr now I. unfold in_ball in *.
   assert (0 <= growth_speed now) as G1 by (unfold now; cbn; nra).
-  generalize (bound_stays_near_its_swept_sphere now margin T d G1 P2 Hd).
+  generalize (bound_stays_near_its_straight_way now margin T d G1 P2 Hd).
   generalize (centre_is_near b m t0 t1 t p q (s + d) K Ht ltac:(lra) ltac:(lra) Tr).
   replace (t + (s + d)) with (t + s + d) by ring.
   assert (rho now d = rho (bound_of b p q) (s + d)) as -> by (apply rho_moved_on).
   replace (c (bound_of b p q) (s + d)) with (c now d) by (apply c_moved_on).
   generalize (norm_by_way_of (place m (t + s + d)) point (start now + d * speed now))
     (norm_by_way_of (c now d) (place m (t + s + d)) (start now + d * speed now)). lra.
-Qed.
-
-(* The test of two swept spheres, over the real numbers. D and U are the differences of centres and velocities, l > 0 is
-   what keeps the division from one by zero. The time that is found is moved into the span. *)
-Definition nearest_time (D U : vector) (l from to : R) : R := Rmin (Rmax (- dot D U / (dot U U + l)) from) to.
-
-(* Moving a little too early a time of the line by l costs no more than this. *)
-Lemma nearest_time_is_near (D U : vector) (l from to s : R) : 0 < l -> 0 <= from <= to -> from <= s <= to ->
-  let n := nearest_time D U l from to in
-  dot (D + n * U) (D + n * U) <= dot (D + s * U) (D + s * U) + l * (to * to) / 2.
-Proof.
-  intros Hl Hf Hs n. rewrite !square_on_line. generalize (dot_self U). intros P.
-  set (u := dot U U) in *. set (w := dot D U) in *. set (k := - w / (u + l)).
-  assert (w = - k * (u + l)) as E by (unfold k; field; lra).
-  assert (from <= n <= to) as Hn.
-  { unfold n, nearest_time. fold k. unfold Rmin, Rmax. repeat destruct Rle_dec; lra. }
-  assert (n = k \/ (n = from /\ k <= from) \/ (n = to /\ to <= k)) as Q.
-  { unfold n, nearest_time. fold u w. change (- w / (u + l)) with k.
-    destruct (Rle_dec k from); [rewrite Rmax_right by lra; rewrite Rmin_left by lra; auto|].
-    rewrite Rmax_left by lra. destruct (Rle_dec k to); [rewrite Rmin_left by lra; auto|].
-    rewrite Rmin_right by lra. right; right. lra. }
-  (* The square along the line, and l s^2 more, is a parabola that is least at k, and in the span at n. *)
-  assert (2 * n * w + n * n * (u + l) + (u + l) * ((s - n) * (s - n)) <= 2 * s * w + s * s * (u + l)) as L.
-  { rewrite E. assert (0 <= (u + l) * ((s - n) * (n - k))); [|nra].
-    apply Rmult_le_pos; [lra|]. destruct Q as [->|[[-> H]|[-> H]]]; nra. }
-  generalize (Rmult_le_pos _ _ P (Rle_0_sqr (s - n))). unfold Rsqr. intros M.
-  assert (2 * n * (s - n) <= to * to / 2) as N.
-  { generalize (Rle_0_sqr (s - 2 * n)). unfold Rsqr. intros W. assert (s * s <= to * to) by nra. lra. }
-  apply (Rmult_le_compat_l l) in N; [|lra]. clear - L M N. lra.
-Qed.
-
-(* Lemma 9, over the real numbers. If the two balls touch at a time of the span, and the span ends at 1 or before, the
-   test does not leave the pair out. In a window without an end it ends at 2 or before; there the radii have
-   a margin that makes up for one l. *)
-Theorem test_of_swept_spheres_does_not_leave_out_what_touches (X Y U V : vector) (r1 r2 l from to s : R) :
-  0 < l -> 0 <= from <= to -> to <= 1 -> from <= s <= to -> norm ((X + s * U) - (Y + s * V)) <= r1 + r2 ->
-  let n := nearest_time (X - Y) (U - V) l from to in
-  let P := ((X - Y) + n * (U - V))%vector in
-  ~ (r1 + r2) * (r1 + r2) + l < dot P P.
-Proof.
-  intros Hl Hf H1 Hs H n P. apply Rle_not_lt.
-  apply Rle_trans with (1 := nearest_time_is_near (X - Y) (U - V) l from to s Hl Hf Hs).
-  replace ((X - Y) + s * (U - V))%vector with ((X + s * U) - (Y + s * V))%vector by by_coordinates.
-  rewrite <- norm_square. generalize (norm_positive ((X + s * U) - (Y + s * V))). revert H.
-  generalize (norm ((X + s * U) - (Y + s * V))). intros k L Q.
-  assert (k * k <= (r1 + r2) * (r1 + r2)) by (apply Rmult_le_compat; lra).
-  assert (l * (to * to) <= l * 1) by (apply Rmult_le_compat_l; nra). lra.
-Qed.
-Theorem test_in_a_window_without_an_end (X Y U V : vector) (r1 r2 margin l from to s : R) :
-  0 < l -> 0 <= from <= to -> to <= 2 -> from <= s <= to -> 0 <= margin -> l <= margin * margin ->
-  norm ((X + s * U) - (Y + s * V)) + margin <= r1 + r2 ->
-  let n := nearest_time (X - Y) (U - V) l from to in
-  let P := ((X - Y) + n * (U - V))%vector in
-  ~ (r1 + r2) * (r1 + r2) + l < dot P P.
-Proof.
-  intros Hl Hf H1 Hs Hr Lr H n P. apply Rle_not_lt.
-  apply Rle_trans with (1 := nearest_time_is_near (X - Y) (U - V) l from to s Hl Hf Hs).
-  replace ((X - Y) + s * (U - V))%vector with ((X + s * U) - (Y + s * V))%vector by by_coordinates.
-  rewrite <- norm_square. generalize (norm_positive ((X + s * U) - (Y + s * V))). revert H.
-  generalize (norm ((X + s * U) - (Y + s * V))). intros k L Q.
-  assert ((k + margin) * (k + margin) <= (r1 + r2) * (r1 + r2)) by (apply Rmult_le_compat; lra).
-  assert (0 <= k * margin) by (apply Rmult_le_pos; lra).
-  assert (l * (to * to) <= l * 4) by (apply Rmult_le_compat_l; nra). lra.
-Qed.
-
-(* The corners of a swept sphere on an axis: how far it reaches down and up during the span. Where two balls touch at a
-   time of the span, the corners have a point in common, on each axis. *)
-Definition lower_corner (x v radius from to : R) : R := Rmin (x + v * from) (x + v * to) - radius.
-Definition upper_corner (x v radius from to : R) : R := Rmax (x + v * from) (x + v * to) + radius.
-
-Lemma corners_contain (x v radius from to s y : R) : from <= s <= to -> Rabs (y - (x + v * s)) <= radius ->
-  lower_corner x v radius from to <= y <= upper_corner x v radius from to.
-Proof.
-  intros Hs H. apply abs_at_most in H. unfold lower_corner, upper_corner.
-  assert (Rmin (x + v * from) (x + v * to) <= x + v * s <= Rmax (x + v * from) (x + v * to)); [|lra].
-  destruct (Rle_or_lt 0 v) as [P|N].
-  - assert (v * from <= v * s <= v * to) by (split; apply Rmult_le_compat_l; lra).
-    rewrite Rmin_left, Rmax_right by lra. lra.
-  - assert (v * to <= v * s <= v * from) by (split; apply Rmult_le_compat_neg_l; lra).
-    rewrite Rmin_right, Rmax_left by lra. lra.
-Qed.
-
-Theorem swept_spheres_that_touch_have_a_common_point (X Y U V : vector) (r1 r2 from to s : R) :
-  0 <= r1 -> 0 <= r2 -> from <= s <= to -> norm ((X + s * U) - (Y + s * V)) <= r1 + r2 ->
-  exists point, forall axis : vector -> R, axis = x_of \/ axis = y_of \/ axis = z_of ->
-    lower_corner (axis X) (axis U) r1 from to <= axis point <= upper_corner (axis X) (axis U) r1 from to /\
-    lower_corner (axis Y) (axis V) r2 from to <= axis point <= upper_corner (axis Y) (axis V) r2 from to.
-Proof.
-  intros P1 P2 Hs H.
-  assert (exists k, 0 <= k <= 1 /\ k * (r1 + r2) = r1) as (k & Hk & E).
-  { destruct (Rle_lt_or_eq_dec 0 (r1 + r2)) as [L|Z]; [lra| |].
-    - exists (r1 / (r1 + r2)). split; [|field; lra]. split.
-      + apply Rmult_le_reg_r with (r1 + r2); [exact L|]. replace (r1 / (r1 + r2) * (r1 + r2)) with r1 by (field; lra). lra.
-      + apply Rmult_le_reg_r with (r1 + r2); [exact L|]. replace (r1 / (r1 + r2) * (r1 + r2)) with r1 by (field; lra). lra.
-    - exists 0. lra. }
-  set (x := (X + s * U)%vector) in *. set (y := (Y + s * V)%vector) in *.
-  exists (x - k * (x - y))%vector. intros axis Ha.
-  assert (Rabs (axis (x - y)%vector) <= r1 + r2) as M.
-  { apply Rle_trans with (2 := H). apply Rabs_le.
-    assert (axis (x - y)%vector * axis (x - y)%vector <= norm (x - y) * norm (x - y)) as Q.
-    { rewrite norm_square. unfold dot.
-      generalize (Rle_0_sqr (x_of (x - y))) (Rle_0_sqr (y_of (x - y))) (Rle_0_sqr (z_of (x - y))). unfold Rsqr.
-      destruct Ha as [->|[->| ->]]; lra. }
-    generalize (norm_positive (x - y)). intros. split; nra. }
-  assert (axis (x - k * (x - y))%vector = axis x - k * (axis x - axis y) /\ axis (x - y)%vector = axis x - axis y /\
-          axis x = axis X + axis U * s /\ axis y = axis Y + axis V * s) as (E1 & E2 & E3 & E4).
-  { unfold x, y. destruct Ha as [->|[->| ->]]; coordinates; repeat split; ring. }
-  rewrite E1. rewrite E2 in M. apply abs_at_most in M.
-  split; apply corners_contain with s; try exact Hs.
-  - rewrite <- E3. apply Rabs_le. split; nra.
-  - rewrite <- E4. apply Rabs_le. split; nra.
 Qed.
