@@ -277,6 +277,100 @@ TEST(Core, LetsLonelyBallsAlone) {
   EXPECT_EQ(standing.work.starts, 0u);
 }
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// Of its balls nothing ever happens to any.
+class QuietHost : public core::Host {
+ public:
+  explicit QuietHost(const WorldDefinition& definition) : core(definition) {}
+  void settle(std::uint32_t number) { core.settle(std::span(&number, 1), *this); }
+
+  core::Core core;
+
+ private:
+  std::span<const std::uint32_t> linked_with(std::uint32_t) override { return {}; }
+  std::size_t keep_partners(std::uint32_t, std::span<std::uint32_t> others) override { return others.size(); }
+  double unchanged_until(std::uint32_t, std::uint32_t) override { return never; }
+  Result<double> recheck(std::uint32_t, std::uint32_t) override { return never; }
+  double walls_unchanged_until(std::uint32_t) override { return never; }
+  Result<double> recheck_walls(std::uint32_t) override { return never; }
+  Result<bool> report(std::span<const std::uint32_t>, Reason) override { return true; }
+  void note_image(std::uint32_t, const Vec3&) override {}
+  Counters& work_counters(std::uint32_t) override { return work_; }
+
+  Counters work_;
+};
+
+/// Two balls that are neighbours, or that touch each other without being neighbours.
+class TwoBalls final : public QuietHost {
+ public:
+  explicit TwoBalls(bool are_neighbours) : QuietHost(unbounded()), are_neighbours_(are_neighbours) {
+    for (const std::uint32_t number : {0u, 1u}) {
+      core.enter(number, {.position = {2.0625 * number, 0, 0}, .velocity = {1, 0, 0}, .radius = 1.0}, false,
+                 false);
+      core.set_kind(number, !are_neighbours, true);
+    }
+    core.settle(partners_, *this);
+  }
+
+ private:
+  std::span<const std::uint32_t> linked_with(std::uint32_t ball) override {
+    return std::span(partners_).subspan(ball, 1);
+  }
+  std::size_t keep_partners(std::uint32_t, std::span<std::uint32_t> others) override {
+    return are_neighbours_ ? others.size() : 0;
+  }
+
+  std::array<std::uint32_t, 2> partners_{1, 0};
+  bool are_neighbours_;
+};
+
+/// Otherwise both would look out for each other, or none.
+TEST(Core, TakesABallThatHasChangedForTheLaterOne) {
+  for (const bool are_neighbours : {true, false}) {
+    TwoBalls balls(are_neighbours);
+    for (const std::uint32_t number : {0u, 0u, 1u, 1u, 1u, 0u}) {
+      balls.settle(number);
+      const core::Core::Record changed = balls.core.record_of(number),
+                               other = balls.core.record_of(1 - number);
+      EXPECT_EQ(changed.neighbours.size(), are_neighbours ? 1u : 0u);
+      EXPECT_GT(changed.change, other.change) << number << ", " << are_neighbours;
+    }
+  }
+}
+
+/// A ball near a wall that reports when it may reach it, and will not before its own time.
+class BallAtAWall final : public QuietHost {
+ public:
+  BallAtAWall() : QuietHost(with_walls()) {
+    core.enter(0, {.position = place_, .radius = 1.0, .acceleration_limit = 0.5}, false, true);
+    core.set_kind(0, false, true);
+    settle(0);
+  }
+
+  double looked_until = 0.0;
+
+ private:
+  Result<double> recheck_walls(std::uint32_t ball) override {
+    looked_until = core.balls()[ball].own;
+    core.report(ball, {.position = place_});
+    return never;
+  }
+
+  Vec3 place_{1.25, 5, 5};
+};
+
+/// The report would let the ball stay in its safe region for longer.
+TEST(Core, LooksNoFartherThanItsHostHasLooked) {
+  BallAtAWall ball;
+  const double due = ball.core.next_due(never);
+  ASSERT_LT(due, never);
+  ball.core.set_time(due);
+  ASSERT_TRUE(ball.core.handle_next(ball));
+  EXPECT_GT(ball.looked_until, due);
+  EXPECT_EQ(ball.core.balls()[0].own, ball.looked_until);
+}
+
 /// Bounds that were read from bytes are refused if no safe region can be around them.
 TEST(Core, HoldsNoBoundBeyondAllRegions) {
   for (const WorldDefinition& definition : {with_walls(), periodic(), unbounded(), flat()}) {

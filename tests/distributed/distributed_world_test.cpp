@@ -55,6 +55,48 @@ TEST(DistributedWorld, TellsOfAGasInASpaceThatRepeats) {
   expect_the_same_as_alone({.scene = scene_of(parameters)}, 100);
 }
 
+/// In a long tube each rank knows a small part of the bodies. Fast ones push others to where nobody has
+/// expected them.
+TEST(DistributedWorld, TellsOfALongTube) {
+  SceneParameters parameters = parameters_of("paper1", 300, 2.0);
+  parameters.box = {{0, 0, 0}, {900, 6, 6}};
+  parameters.radius_min = 0.3;
+  parameters.radius_max = 1.0;
+  parameters.speed_min = 1.0;
+  parameters.speed_max = 100.0;
+  for (const bool repeats : {false, true}) {
+    parameters.periodic = repeats;
+    parameters.walls = !repeats;
+    const Setting setting{.scene = scene_of(parameters)};
+    const RunOutcome one = alone(setting);
+    EXPECT_GE(one.events.size(), 300u);
+    const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
+    DistributedWorld world = spread(setting, *motion);
+    expect_same(one, finish(setting, world));
+    EXPECT_LT(world.figures().ghosts, parameters.bodies / 3);
+  }
+}
+
+/// Some ranks know exact bodies alone. They compare them as one world does that has others, too.
+TEST(DistributedWorld, TellsOfUnknownCoursesAtOneEndOfATube) {
+  constexpr int length = 100, count = 4 * length;
+  RandomForcesDefinition forces{.interval = 0.25, .seed = 12};
+  Random random(12);
+  Scene scene;
+  scene.world.box = Box{{0, 0, 0}, {3.0 * length, 6, 6}};
+  for (int k = 0; k < count; ++k) {
+    const int place = 47 * k % count;
+    const Vec3 cell{place / 4 + 0.5, place / 2 % 2 + 0.5, place % 2 + 0.5};
+    forces.start.push_back({3.0 * cell, 3.0 * random.point_in_ball()});
+    forces.acceleration_limits.push_back(place < 8 ? 4.0 : 0.0);
+    scene.bodies.push_back({.radius = 1.0});
+  }
+  scene.motion = RandomForces::create(forces).value().clone();
+  scene.response = SceneResponse::bounce;
+  scene.end_time = 2.0;
+  expect_the_same_as_alone({.scene = std::move(scene)}, 500);
+}
+
 TEST(DistributedWorld, TellsOfRadiiThatChange) {
   expect_the_same_as_alone({.scene = scene_of(parameters_of("paper1", 300, 2.0)), .radius_rate = 0.1}, 300);
   expect_the_same_as_alone({.scene = scene_of(parameters_of("gas", 200, 1.0)), .radius_rate = 0.02}, 300);

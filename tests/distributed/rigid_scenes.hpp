@@ -19,6 +19,7 @@ struct RigidSceneParameters {
   RigidKind kind = RigidKind::mixed;
   std::uint64_t seed = 1;
   int side = 5;          ///< of the lattice on which bodies start, in bodies
+  int length = side;     ///< of the lattice along x
   double spacing = 2.2;  ///< of the lattice; the balls around bodies have radii of at most 1
   double largest_spin = 3.0;
   double acceleration_limit = 0.0;
@@ -60,19 +61,20 @@ inline std::vector<RigidPart> parts_of(RigidKind kind, Random& random) {
 
 inline Setting rigid_setting(const RigidSceneParameters& parameters) {
   const int side = parameters.side;
-  const int count = side * side * side;
+  const int length = parameters.length;
+  const int count = length * side * side;
   Random random(parameters.seed);
   RandomForcesDefinition forces{.interval = 0.25, .seed = parameters.seed};
   Setting setting;
   Scene& scene = setting.scene;
   const double width = parameters.spacing * side;
   if (parameters.has_walls || parameters.is_periodic)
-    scene.world.box = Box{{-0.5, -0.5, -0.5}, {width + 0.5, width + 0.5, width + 0.5}};
+    scene.world.box = Box{{-0.5, -0.5, -0.5}, {parameters.spacing * length + 0.5, width + 0.5, width + 0.5}};
   if (parameters.is_periodic) scene.world.periodic = {true, true, true};
   for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(count); ++k) {
     // Numbers unrelated to places.
     const int place = 47 * static_cast<int>(k) % count;
-    const Vec3 cell{place % side + 0.5, place / side % side + 0.5, place / (side * side) + 0.5};
+    const Vec3 cell{place % length + 0.5, place / length % side + 0.5, place / (length * side) + 0.5};
     forces.start.push_back({parameters.spacing * cell, parameters.speed * random.point_in_ball()});
     forces.acceleration_limits.push_back(parameters.acceleration_limit);
     scene.bodies.push_back({.radius = random.uniform(0.4, 0.8)});
