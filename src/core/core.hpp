@@ -240,6 +240,8 @@ class Core {
   void set_stay(std::uint32_t number, double stay);
   void limit_own(std::uint32_t number, double walls_until);
   double stays(std::uint32_t number) const;
+  double stays_inside(std::uint32_t number) const;
+  double keeps_image(std::uint32_t number) const;
   double clear_of_walls(std::uint32_t number, Host& host) const;
   double clear_of_wall(std::uint32_t number, const HalfSpace& inside) const;
 
