@@ -67,7 +67,7 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
     schedule(number, false, host);
     return {};
   }
-  const double radius = double{ball.region} * unit_;
+  const double radius = std::min(double{ball.region} * unit_, widest_region(ball));
   const bool is_wide = balls_.growth(number) > growth_worth_a_report * radius;
   const bool is_far = norm_one(balls_.position(number) - ball.position) > longest_flight * radius;
   if (is_wide || is_far)
