@@ -23,7 +23,7 @@ kinesphere_optimise_test(kinesphere_test_headers_little)
 # filters of GoogleTest by executable. They have the label `long` (scripts/test.sh --all).
 set(kinesphere_long_stream Long/*:*Crowds*:AnyReports.OtherSmall*:Mended.StrangeNumbers*)
 set(kinesphere_long_world
-    Long/*:BadSnapshot.AnyTwo*:FastSpins.AreNamed*:PlainGap.*:MoreChaos.*:ClustersThatWereInterrupted.*)
+    Long/*:BadSnapshot.AnyTwo*:FastSpins.AreNamed*:PlainGap.*:MoreChaos.*:RunsThatWereInterrupted.*)
 set(kinesphere_long_simulation Long/*:Pile.Thousand*)
 set(kinesphere_long_program WatchNats.*)
 

@@ -6,14 +6,14 @@ namespace kinesphere {
 
 BodyRecord record_of(const Bodies& bodies, const ContactGraph& contacts, std::uint32_t number) {
   const auto name_of = [&](std::uint32_t other) { return bodies.table().name_of(other); };
-  const auto [body, image] = bodies.checkpoint(number);
+  const Body& body = bodies[number];
   BodyRecord record{.name = name_of(number),
                     .body = body,
-                    .image = image,
+                    .image = bodies.space().repeats() ? bodies.images[number] : PeriodicImage{},
                     .filter = bodies.filters.of(number),
                     .mass = bodies.masses.of(number),
                     .radius = bodies.radii.of(number),
-                    .contacts = ContactCheckpoint::of(contacts, number)};
+                    .contacts = ContactsOfBody::of(contacts, number)};
   if (body.has_shape()) record.shape.push_back(bodies.shapes.of(body));
   if (const RigidRecord* const turning = bodies.rigid.find(body)) record.rigid.push_back(*turning);
   PartnerList partners;
@@ -40,7 +40,7 @@ std::uint32_t install(const BodyRecord& record, Bodies& bodies, ContactGraph& co
   bodies.set_solid(number, body.solid);
   if (bodies.space().repeats()) bodies.images[number] = record.image;
   contacts.add(number, 0.0);
-  record.contacts.restore_alone(contacts, number);
+  record.contacts.set(contacts, number);
   return number;
 }
 

@@ -8,8 +8,8 @@
 
 #include "archive/fields.hpp"
 #include "bodies/bodies.hpp"
-#include "contact/contact_checkpoint.hpp"
 #include "contact/contact_graph.hpp"
+#include "contact/contacts_of_body.hpp"
 #include "core/core.hpp"
 
 namespace kinesphere {
@@ -31,7 +31,7 @@ struct BodyRecord {
   ChangingRadius radius{};
   std::vector<Shape> shape{};        ///< one, of a moving shape; few bodies have one
   std::vector<RigidRecord> rigid{};  ///< one, of a rigid body
-  ContactCheckpoint contacts{};
+  ContactsOfBody contacts{};
   /// It has arrived, and has no part in what moves as yet. `first_radius`: of its first safe region (length);
   /// 0 if it looks how far others are.
   bool is_arriving = false;

@@ -24,9 +24,6 @@ Result<DistributedWorld> DistributedWorld::create(const WorldDefinition& definit
     if (!definition.allow_overlap)
       return Error{ErrorCode::unsupported, "allow_overlap", no_body,
                    "create: allow_overlap must be true in a distributed world, but is false"};
-    if (definition.spread_window_starts)
-      return Error{ErrorCode::unsupported, "spread_window_starts", no_body,
-                   "create: spread_window_starts must be false in a distributed world, but is true"};
     return {};
   };
   const auto checked = valid();

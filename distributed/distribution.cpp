@@ -178,12 +178,16 @@ void Distribution::drop(std::span<const BodyRecord> ghosts) {
   for (const BodyRecord& ghost : ghosts) (void)motion_.remove(ghost.in_motion);
 }
 
+Box Distribution::box_of(const core::Ghosts::Region& region) const {
+  const Vec3 extent{region.reach, region.reach, region.reach};
+  return space_.within({region.centre - extent, region.centre + extent});
+}
+
 /// Returns true if a body of this rank has come where another rank should have known it, or where this rank
 /// may not have known others.
 bool Distribution::lacks_ghosts(const Part& part) const {
   for (const core::Ghosts::Region& region : part.ghosts().regions()) {
-    const Vec3 extent{region.reach, region.reach, region.reach};
-    const Box box = space_.within({region.centre - extent, region.centre + extent});
+    const Box box = box_of(region);
     if (!known_.covers(box)) return true;
     for (const int rank : known_.ranks_that_meet(box))
       if (!std::binary_search(sent_.begin(), sent_.end(), std::pair(part.name_of(region.ball), rank)))
@@ -192,20 +196,51 @@ bool Distribution::lacks_ghosts(const Part& part) const {
   return false;
 }
 
+/// Returns true if a ghost whose course is wrong has been a neighbour of an own body, or should have been:
+/// its safe regions, as its owner knows them, are in this box.
+bool Distribution::concerns_own(const Part& part, std::uint32_t ghost, const Box& box) const {
+  if (part.ghosts().is_neighbour(ghost)) return true;
+  if (!known_.here().meets(box, space_)) return false;
+  const auto regions = part.ghosts().regions();
+  return std::any_of(regions.begin(), regions.end(),
+                     [&](const core::Ghosts::Region& region) { return meet(box_of(region), box, space_); });
+}
+
+/// Sends to other ranks what has become of the bodies of which they have ghosts: the course of each, and a
+/// box around its safe regions.
+std::vector<Communicator::Bytes> Distribution::tell_courses(const Part& part) {
+  std::vector<Box> boxes(part.numbers());
+  std::vector<bool> has_box(part.numbers());
+  for (const core::Ghosts::Region& region : part.ghosts().regions()) {
+    const Vec3 extent{region.reach, region.reach, region.reach};
+    Box& box = boxes[region.ball];
+    const Box more{region.centre - extent, region.centre + extent};
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = has_box[region.ball] ? std::min(box.lower[axis], more.lower[axis]) : more.lower[axis];
+      box.upper[axis] = has_box[region.ball] ? std::max(box.upper[axis], more.upper[axis]) : more.upper[axis];
+    }
+    has_box[region.ball] = true;
+  }
+  SendBuffers buffers(communicator_.ranks());
+  for (const auto& [name, rank] : sent_) {
+    const std::uint32_t number = part.number_of(name);
+    buffers.add(rank, name, part.ghosts().course_of(number), space_.within(boxes[number]));
+  }
+  return buffers.exchange(communicator_);
+}
+
 std::uint64_t Distribution::count_disagreeing(const Part& part) {
   if (communicator_.ranks() == 1) return 0;
-  SendBuffers buffers(communicator_.ranks());
-  for (std::uint32_t number = 0; number < part.numbers(); ++number)
-    if (part.ghosts().is_ghost(number) && part.ghosts().is_neighbour(number))
-      buffers.add(part.owner_of(number), part.name_of(number), part.ghosts().course_of(number));
   bool disagrees = lacks_ghosts(part);
-  for (const Communicator::Bytes& bytes : buffers.exchange(communicator_)) {
+  for (const Communicator::Bytes& bytes : tell_courses(part)) {
     ByteReader reader(bytes);
-    while (reader.remaining() > 0 && !reader.failed()) {
+    while (!disagrees && reader.remaining() > 0 && !reader.failed()) {
       std::uint32_t name = 0;
       std::uint64_t course = 0;
-      reader(name, course);
-      disagrees = disagrees || part.ghosts().course_of(part.number_of(name)) != course;
+      Box box;
+      reader(name, course, box);
+      const std::uint32_t ghost = part.number_of(name);
+      disagrees = part.ghosts().course_of(ghost) != course && concerns_own(part, ghost, box);
     }
   }
   return communicator_.sum(disagrees ? 1 : 0);

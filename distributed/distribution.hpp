@@ -55,8 +55,9 @@ class Distribution {
                                               const Halo& halo);
   /// Removes the motions of ghosts.
   void drop(std::span<const BodyRecord> ghosts);
-  /// Collective. Returns how many ranks have a ghost that its owner disagrees with, or may lack one: in the
-  /// part that they have simulated since send_ghosts().
+  /// Collective. Returns how many ranks may lack a ghost, or have one that has or should have been a
+  /// neighbour of an own body and of which its owner tells another course: in the part that they have
+  /// simulated since send_ghosts().
   std::uint64_t count_disagreeing(const Part& part);
 
   /// Number of times that space has been divided.
@@ -69,7 +70,10 @@ class Distribution {
   Box region_around(int rank, double distance) const;
   void know(std::span<const Box> ways, double width);
   Result<std::vector<BodyRecord>> receive(std::vector<Communicator::Bytes> bytes);
+  Box box_of(const core::Ghosts::Region& region) const;
   bool lacks_ghosts(const Part& part) const;
+  bool concerns_own(const Part& part, std::uint32_t ghost, const Box& box) const;
+  std::vector<Communicator::Bytes> tell_courses(const Part& part);
 
   Communicator& communicator_;
   ErrorConsensus& consensus_;

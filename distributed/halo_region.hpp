@@ -1,5 +1,5 @@
-// HaloRegion is a set of boxes in which a rank knows all bodies: the rank holds every body that may enter one
-// of the boxes before the body's window ends.
+// HaloRegion is a set of boxes in which a rank knows all bodies: those whose safe regions meet one of the
+// boxes at any time in a slab.
 #pragma once
 
 #include <cstddef>

@@ -190,7 +190,7 @@ Result<DistributedWorld::RankEngine::Outcome> DistributedWorld::RankEngine::try_
   return Outcome{.is_done = true, .stop = stop, .work = work};
 }
 
-/// Checks exact bodies, as World::Engine::end_epoch() does.
+/// Checks exact bodies, as World::Engine::spot_check() does.
 Result<void> DistributedWorld::RankEngine::spot_check(Part& part) {
   EventProcessor& main = part.main();
   const auto own_probes = [&] { return counters_.probes + main.counters().probes; };

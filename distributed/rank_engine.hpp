@@ -3,10 +3,10 @@
 // Between slabs of time it is a list of records of the bodies that it owns. For a slab, each rank makes a
 // part (part.hpp) of its own bodies and of ghosts, copies of those around them, and simulates it to the end
 // of the slab as a world of its own. Ghosts far out go wrong then, since what is beyond them is missing, and
-// what goes wrong spreads inwards. So in the end all ranks compare the courses of those ghosts that have been
-// neighbours of own bodies with what their owners have found. If they agree, and no body has come where a
-// rank did not know of it, each rank has what one world would have computed (docs/distributed.md has the
-// proof). Otherwise all go back, and try a shorter slab with more ghosts.
+// what goes wrong spreads inwards. So in the end all ranks compare the courses of ghosts with what their
+// owners have found. If those agree that are near own bodies, and no body has come where a rank did not know
+// of it, each rank has what one world would have computed (docs/distributed.md has the proof). Otherwise all
+// go back, and try a shorter slab with more ghosts.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Bullets that vanish where they hit, rocks that burst, and things to pick up, in a game that the world runs
-// by itself on two threads. The outcome is that of three, to the last bit.
+// by itself. The outcome is the same with any number of threads, to the last bit.
 #include <kinesphere/kinesphere.hpp>
 
 #include <cstdio>

@@ -291,7 +291,7 @@ typedef struct ks_world_definition {
   double start_time;
   ks_contacts contacts;
   int32_t allow_overlap;
-  int32_t spread_window_starts;  ///< 0, or 1 for frames that cost about the same
+  int32_t spread_window_starts;  ///< 0 or 1, without effect
   int32_t has_wall_filter;       ///< 0: the walls meet every body
   ks_filter wall_filter;         ///< of all walls
   /// 1: a report that breaks the promise of its body raises the body's acceleration limit
@@ -735,8 +735,7 @@ KS_API KS_MUST_CHECK ks_status ks_world_advance(ks_world world, double until, ks
 /// Chooses what an event does to its bodies; `response` is ks_new_response() at first. It is called at every
 /// event, at ends too: look at ks_event::kind first, as velocities that are exchanged at each
 /// KS_EVENT_CONTACT_END turn the two back to each other, for ever. It must give the same
-/// answer for the same event at any time, and must not call the world. With several threads it is called by
-/// several at a time. A number other than 0 stops the run.
+/// answer for the same event at any time, and must not call the world. A number other than 0 stops the run.
 typedef int32_t (*ks_respond)(const ks_event* event, ks_response* response, void* user);
 /// Receives each event once, in order, in the thread that called ks_world_run(). It may read the world. At an
 /// event whose response has `stop` the world is at the time of the event, and the sink may change it: add and
@@ -747,7 +746,7 @@ typedef int32_t (*ks_sink)(const ks_event* event, void* user);
 /// How ks_world_run() answers events.
 typedef struct ks_run_definition {
   uint32_t struct_size;
-  int32_t threads;       ///< from 1 to 256, with the calling one; same outcome from two on
+  int32_t threads;       ///< from 1 to 256, with the calling one; the outcome is the same
   double restitution;    ///< in [0, 1]: bodies bounce as by ks_bounce(); NaN: they pass through each other
   double resting_speed;  ///< as for ks_bounce()
   ks_respond respond;    ///< if not NULL, it answers events instead

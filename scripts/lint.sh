@@ -29,8 +29,7 @@ if grep -rn '#include ["<]kinesphere\.h[">]' include src toolkit distributed sim
 fi
 
 # The folders of src and then of toolkit, in the order of docs/architecture.md: each includes only those before it.
-engine=(number input archive parallel bound space broadphase contact bodies core processor speculation engine query recording
-  world)
+engine=(number input archive parallel bound space contact bodies core processor engine query recording world)
 toolkit=(placement motion paths monitor)
 if ! diff <(printf '%s\n' "${engine[@]}" | sort) <(basename -a src/*/ | sort) ||
   ! diff <(printf '%s\n' "${toolkit[@]}" | sort) <(basename -a toolkit/*/ | sort); then

@@ -11,7 +11,7 @@ namespace Kinesphere
     /// <summary>Sets the rotations of rigid bodies at a time, which are NaN at first.</summary>
     public delegate void RotationProbe(BodyId[] bodies, double time, Rotation[] rotations);
 
-    /// <summary>Chooses what an event does to its bodies: the same for the same event, and in any thread.</summary>
+    /// <summary>Chooses what an event does to its bodies: the same for the same event.</summary>
     public delegate Response Respond(Event happened);
 
     /// <summary>Decides whether two bodies whose filters let them touch may do so: the same for both orders, and until

@@ -91,8 +91,8 @@ class BodyMap {
   /// body that the world has removed already, as by a response of World::run(), is removed from the rest.
   Result<void> remove(World& world, BodyId body);
   /// For the sink of World::run(): removes from map and motions those bodies of the event that its response
-  /// has removed from the world. Numbers in the motions become free in the order of events, so they are given
-  /// anew in one order for all numbers of threads. Calls `respond` only if a body of the event has gone.
+  /// has removed from the world. Numbers in the motions become free in the order of events. Calls `respond`
+  /// only if a body of the event has gone.
   Result<void> remove_gone(World& world, const Event& event, const ResponseFn& respond);
 
   /// Appends the next frame to the frames (FrameMotion::push) and informs the world of the new velocities,

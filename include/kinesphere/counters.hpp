@@ -14,8 +14,7 @@ struct Counters {
   std::array<std::uint64_t, event_kind_count> events{};
   /// Probed states, one per body and call.
   std::uint64_t probes = 0;
-  /// starts: bodies that got another safe region, since they might have left theirs; with several threads,
-  /// another window, since theirs ended. window_ends: times at which windows ended; 0 without windows.
+  /// starts: bodies that got another safe region, since they might have left theirs. window_ends: always 0.
   std::uint64_t window_ends = 0;
   std::uint64_t starts = 0;
   /// Bodies whose certificates became invalid: bodies that were added, changed, given a new velocity, or that
@@ -24,9 +23,8 @@ struct Counters {
   /// Certificates that reached their failure time: of pairs, and of bodies and the walls.
   std::uint64_t pair_checks = 0;
   std::uint64_t wall_checks = 0;
-  /// searches: searches for the bodies that may come near a body while it is in its safe region, or its
-  /// window. candidates: bodies found by them. hot_pairs: pairs whose certificate was found to fail while the
-  /// body is there.
+  /// searches: searches for the bodies that may come near a body while it is in its safe region. candidates:
+  /// bodies found by them. hot_pairs: pairs whose certificate was found to fail while the body is there.
   std::uint64_t searches = 0;
   std::uint64_t candidates = 0;
   std::uint64_t hot_pairs = 0;

@@ -34,8 +34,8 @@ namespace kinesphere {
 /// allocator; a tree node counts with four pointers.
 struct Memory {
   std::size_t bodies = 0;     ///< definitions and bounds
-  std::size_t windows = 0;    ///< safe regions of the bodies, or their windows, in cells
-  std::size_t pairs = 0;      ///< lists of neighbours and due times, or certificates
+  std::size_t windows = 0;    ///< safe regions of the bodies, and their cells
+  std::size_t pairs = 0;      ///< lists of neighbours, and due times
   std::size_t contacts = 0;   ///< contacts, and pending events
   std::size_t recording = 0;  ///< the recording so far
   std::size_t other = 0;
@@ -93,7 +93,7 @@ struct BusyBody {
   friend constexpr bool operator==(const BusyBody&, const BusyBody&) = default;
 };
 
-/// A non-empty cell of the broad phase. Bodies with safe regions of about equal size share a level; each
+/// A non-empty cell of safe regions. Bodies with safe regions of about equal size share a level; each
 /// level has its own cells.
 struct CellView {
   Box box{};
@@ -102,12 +102,12 @@ struct CellView {
   friend constexpr bool operator==(const CellView&, const CellView&) = default;
 };
 
-/// Certificate of a pair, or of a body and the walls: of each body the one that fails first; all of them
-/// where windows find contacts (World::run() with several threads). Before `until` the pair does not begin or
-/// end to touch or to sense each other (a body and the walls: the set of walls that the body touches does not
-/// change), while its bodies keep their motion limits and nothing changes them. A pair without a certificate
-/// does not change before the earliest BodyView::box_end of the two, nor before a certificate of either
-/// fails; a body without a wall certificate reaches or leaves no wall until its box_end.
+/// Certificate of a pair, or of a body and the walls: of each body the one that fails first. Before `until`
+/// the pair does not begin or end to touch or to sense each other (a body and the walls: the set of walls
+/// that the body touches does not change), while its bodies keep their motion limits and nothing changes
+/// them. A pair without a certificate does not change before the earliest BodyView::box_end of the two, nor
+/// before a certificate of either fails; a body without a wall certificate reaches or leaves no wall until
+/// its box_end.
 struct Certificate {
   BodyId first;   ///< first < second
   BodyId second;  ///< no_body for the walls
@@ -132,7 +132,7 @@ class [[nodiscard]] World::Inspection {
  public:
   /// Returns the memory in use, by part. Cost: O(n).
   Memory memory() const;
-  /// Returns the non-empty cells of the broad phase. Cost: O(n).
+  /// Returns the non-empty cells of safe regions. Cost: O(n).
   std::vector<CellView> cells() const;
   /// Returns the certificates of pairs, and of bodies and the walls, that may fail before the earliest
   /// box_end of their bodies, in no particular order. Cost: O(certificates).

@@ -9,8 +9,8 @@
 //   const auto sink = [&](const Event& event) { log(event); };
 //   world.run(60.0, source, respond, sink).value();
 //
-// A loop over World::advance() gives the same result, bit for bit with one thread. The loop may do anything
-// at an event, whereas run() knows in advance what an event can do, as a function of the event alone: change
+// A loop over World::advance() gives the same result, bit for bit. The loop may do anything at an event,
+// whereas run() knows in advance what an event can do, as a function of the event alone: change
 // the velocities of its bodies, remove them, disable them or put them to sleep. Where more is to be done, as
 // adding bodies, the response asks for a stop (Response::stop), at which the sink may do what the loop may.
 #pragma once
@@ -38,12 +38,12 @@ struct MotionOrigin {
 /// adapts the motions of a BodyMap.
 ///
 /// The origin of a body determines its motion: the state of a body at a time depends on that body, that
-/// time and its origin, and on nothing else, neither on earlier queries nor on other bodies. States may be
-/// queried at times in any order, from the time of the origin on.
+/// time and its origin, and on nothing else, neither on earlier queries nor on other bodies. A run queries
+/// states in the order of time.
 ///
-/// Threads. The three functions are called concurrently from several threads for different bodies, but
-/// never concurrently for the same body. They may throw (see World::run()). None of them may call the
-/// world.
+/// Threads. A run with several threads calls states() from all of them at the same time, for different
+/// bodies; origin() and set_origin() are called alone, in the thread of the run. The functions may throw (see
+/// World::run()). None of them may call the world.
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
@@ -53,9 +53,8 @@ class MotionSource {
   /// Returns the motion origin of a body: the time and state of its last change.
   virtual MotionOrigin origin(BodyId body) const = 0;
   /// Makes the body move from this origin from now on. World::run() calls it with the velocity of a
-  /// response, and with an earlier origin to undo such a change. If it throws, it must already have set an
-  /// origin in the undo case; otherwise the world and the motion source disagree about the place of the
-  /// body.
+  /// response. If it throws for the second body of an event, the first one gets the origin back that it had
+  /// before the event; if it throws then, too, world and motion source disagree about the place of that body.
   virtual void set_origin(BodyId body, const MotionOrigin& origin) = 0;
 };
 
@@ -87,10 +86,6 @@ struct Response {
   /// World::time() is the time of the event, and every call is allowed that a loop over World::advance() may
   /// make at a stop, but for advance(), events() and run(). So the sink adds bodies, to the world and to its
   /// motion, or teleports them.
-  ///
-  /// Cost: with several workers a stop ends a batch. Clusters that were executed beyond it are executed
-  /// again, and the events of its instant one by one. BodyAction::sleep costs the same, and so does any
-  /// action on a static body.
   bool stop = false;
 
   friend constexpr bool operator==(const Response&, const Response&) = default;
@@ -98,10 +93,11 @@ struct Response {
 
 /// Any callable `Response(const Event&)`. It is called at every event, at ends too, so it looks at
 /// Event::kind first: velocities that are exchanged at a contact_end as well turn the two back to each other,
-/// for ever. bounce() and settle() leave ends as they are. It must return the same response for the same
-/// event, at any time and in any thread: several threads may call it concurrently, and again for an event
-/// that it has already handled. It may read data that does not change during the run, such as masses by
-/// BodyId::index or by user data. It must not call the world. It may throw. Lifetimes: as for Probe.
+/// for ever. bounce() and settle() leave ends as they are. It must be a pure function, with equal responses
+/// to equal events: a run that was interrupted calls it again for the same event, and a DistributedWorld
+/// calls it on several ranks, and more than once. It may read data that does not change during the run, such
+/// as masses by BodyId::index or by user data. It must not call the world. It may throw. Lifetimes: as for
+/// Probe.
 using ResponseFn = Callback<Response(const Event& event)>;
 
 /// Any callable `void(const Event&)`. It receives each event once, in the order of events, in the thread

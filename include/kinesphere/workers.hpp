@@ -28,9 +28,8 @@ struct TaskSystem {
 };
 
 /// Serves one run() at a time, of any world; another run() that starts meanwhile fails with workers_busy.
-/// Idle threads yield a hundred times while they look for work, and then sleep. A run measures how much
-/// processor time its threads get. Where that is hardly more than one thread would have, the calling thread
-/// works alone; the others are tried again from time to time. The outcome is the same either way.
+/// Idle threads yield a hundred times while they look for work, and then sleep. In a run they share the calls
+/// of the probe for many bodies at one time, and nothing else.
 class Workers {
  public:
   class Pool;  ///< of the library

@@ -343,13 +343,11 @@ class World {
 
   /// Advances to time `until`. For each event, run() calls `respond`, passes the velocities of the response
   /// to the motion source and to the world, removes, disables or puts to sleep the bodies for which the
-  /// response says so, and calls `sink`. With one thread, or with fewer than 1,024 bodies, the events, the
-  /// ids of bodies that the sink adds (Response::stop), the probed states and a recording equal, bit for bit,
-  /// those of a loop over advance() that does the same.
+  /// response says so, and calls `sink`. The events, the ids of bodies that the sink adds (Response::stop),
+  /// the probed states and a recording equal, bit for bit, those of a loop over advance() that does the same.
   ///
   /// The sink may call body(), touching(), sensor_overlaps(), time() and every other member that is allowed
-  /// inside a pair filter. These show the world at a moment that is not before the event and may be after
-  /// it; anything that must depend on the event alone has to be taken from the event. The motion source and
+  /// inside a pair filter. These show the world at the event, after its response. The motion source and
   /// `respond` must not call this world. Calls that list probe_in_progress fail with run_in_progress inside
   /// all three, unless the sink receives an event whose response has Response::stop.
   ///
@@ -358,19 +356,15 @@ class World {
   /// delivered twice:
   ///   - An event whose response was refused, or could not be obtained or applied because `respond` or the
   ///     motion source threw, has changed no body. The next run() calls `respond` for it before anything
-  ///     else.
-  ///   - An event at which the sink threw has been responded to and counts as delivered. Events that were
-  ///     responded to but not delivered are delivered first by the next run().
-  /// In these two cases advance(), too, returns these events before anything else, whatever their time; it
-  /// can therefore pass over an event that `respond` cannot handle. Until they have been delivered, save(),
-  /// start_recording() and stop_recording() fail with run_in_progress.
+  ///     else; advance() returns it before anything else, and can therefore pass over an event that `respond`
+  ///     cannot handle. Until it has been delivered, save(), start_recording() and stop_recording() fail with
+  ///     run_in_progress.
+  ///   - An event at which the sink threw has been responded to and counts as delivered.
   ///
-  /// Workers (workers.hpp) with several threads share the work of a world with 1,024 bodies or more, and
-  /// events are delivered in batches. From then on, windows find the contacts of this world
-  /// (docs/architecture.md): the events are the same, at times that differ by rounding and by what the
-  /// contact tolerance allows, and equal bit for bit for any number of threads from two on. Events are
-  /// processed one at a time while bodies sleep. While the world is recorded or profiled, or has a pair
-  /// filter or a rotation probe, this thread does all.
+  /// Workers (workers.hpp) with several threads share the calls of the motion source for 1,024 bodies or more
+  /// at one time, as where many bodies have arrived. All else is done by this thread, so they make hardly any
+  /// run faster. The outcome is the same, bit for bit, for any number of threads. While the world is recorded
+  /// or profiled, or has a rotation probe, this thread does all.
   ///
   /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity or an action in a
   /// response, those of set_velocity() or sleep() and, for the second body of an event without one,
@@ -400,8 +394,8 @@ class World {
 
   // Current contacts and sensor overlaps, as the events so far have reported them.
 
-  /// Returns the bodies in contact with the body, in the order in which the contacts began; those of a static
-  /// body in no particular order after a run() with several workers. Cost: O(result).
+  /// Returns the bodies in contact with the body, in the order in which the contacts began. Cost:
+  /// O(result).
   Result<std::vector<BodyId>> touching(BodyId body) const;
   /// Returns the sensor distances that the body is within, ordered by partner and, for each partner, from
   /// the largest distance to the smallest. Cost: O(result).

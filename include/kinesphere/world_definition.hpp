@@ -63,10 +63,7 @@ struct WorldDefinition {
   /// begin at 0 and add an offset where times are shown, unless such ways are far below the contact
   /// tolerance.
   double start_time = 0.0;
-  /// Has an effect in World::run() with several threads only, where windows find contacts: it spreads the
-  /// work that the world does for most bodies together, when their windows start (docs/architecture.md), over
-  /// the time before. Events are the same but for the last digits of their times. Has no effect on fewer than
-  /// 16 bodies and in periodic space. A DistributedWorld refuses it.
+  /// Has no effect: work is spread over time anyway. A DistributedWorld refuses it.
   bool spread_window_starts = false;
   /// If a report breaks the promise of its body, the world takes the acceleration that explains the report
   /// for the body's acceleration limit from then on, unless the limit is larger already: so a body whose

@@ -53,15 +53,14 @@ ContactOptions contact_options(const DistributedRunOptions& options) {
 }
 
 std::string summary_of(const SceneParameters& parameters, const Scene& scene, const RunTotals& totals,
-                       int threads, const std::vector<RankUse>& use) {
+                       const std::vector<RankUse>& use) {
   SceneResult result;
   result.counters = {totals.counters};
   result.simulated_time = scene.end_time - scene.world.start_time;
   result.body_time = result.simulated_time * static_cast<double>(scene.bodies.size());
   Summary summary;
   add_scene(summary, parameters);
-  summary.row("ranks", grouped(use.size()),
-              fmt::format("{} thread{} on each", threads, threads == 1 ? "" : "s"));
+  summary.row("ranks", grouped(use.size()));
   summary.row("simulated", fmt::format("{} s", number(result.simulated_time)),
               fmt::format("{} body-seconds", number(result.body_time)));
   if (totals.resumed_at) summary.row("resumed at", fmt::format("{} s", number(*totals.resumed_at)));
@@ -121,8 +120,7 @@ void run_scene(const Ranks& ranks, const DistributedRunOptions& options, const P
     if (options.hash_only) {
       print("{:016x}\n", totals.hash.value());
     } else if (!options.quiet) {
-      print("{}",
-            summary_of(prepared.source.parameters, prepared.scene, totals, options.threads.value_or(1), use));
+      print("{}", summary_of(prepared.source.parameters, prepared.scene, totals, use));
     }
     finish_output();
   });
@@ -142,7 +140,7 @@ CLI::App* add_distributed_run_command(CLI::App& program, DistributedRunOptions& 
   CLI::App* command = program.add_subcommand("run", "Simulate a scene on all ranks and summarise it");
   add_scene_options(*command, options.scene);
   add_response_options(*command, options.scene);
-  command->add_option("--threads", options.threads, "How many threads work on each rank; 1 when not given")
+  command->add_option("--threads", options.threads, "Accepted, without effect: each rank works on one thread")
       ->check(whole_number(Workers::most_threads, 1));
   command->add_option("--contacts", options.contacts, "Write every event to this .csv or .jsonl file")
       ->type_name("FILE");

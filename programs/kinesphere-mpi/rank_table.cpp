@@ -69,7 +69,7 @@ std::uint64_t largest_memory() {
 }
 
 std::string rank_table(std::span<const RankUse> ranks) {
-  std::vector<Line> lines{{"rank", "bodies", "copies", "sent", "messages", "parts", "rounds", "processor",
+  std::vector<Line> lines{{"rank", "bodies", "ghosts", "sent", "messages", "slabs", "tries", "processor",
                            "without MPI", "memory"}};
   for (std::size_t rank = 0; rank < ranks.size(); ++rank)
     lines.push_back(line_of(std::to_string(rank), ranks[rank]));

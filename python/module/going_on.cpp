@@ -330,7 +330,7 @@ and its motions, too.
 sink: a function that is told each Event, in order; then no Events are returned.
 at_stop: a function that is told each Event at which the world stops, after the sink. It may change the world, the
 motion and the map as a loop over events() may: add bodies, teleport them. It may not advance the world.
-threads: how many share the work, or Workers; the outcome is the same.
+threads: how many share the asking of many probes at once, or Workers; the outcome is the same.
 progress: a function that is told the time that the run has reached, at most 20 times a second and at the end; or
 True for a bar by tqdm, in notebooks too. It may not change the world.
 

@@ -239,7 +239,7 @@ void bind_views(py::module_& module) {
       .def_readonly("touching", &BusyBody::touching, "For a body or wall that it touches.")
       .def_readonly("near", &BusyBody::near,
                     "For a body, wall or sensor distance that it may reach or leave.")
-      .def_readonly("windows", &BusyBody::windows, "At ends of its windows of time.")
+      .def_readonly("windows", &BusyBody::windows, "When it may leave its safe region, and spot checks.")
       .def_readonly("changes", &BusyBody::changes, "After changes and violated bounds.")
       .def_readonly("queries", &BusyBody::queries, "For queries and predictions with a probe.")
       .def_readonly("contacts", &BusyBody::contacts, "Events contact_begin and wall_begin of the body.")

@@ -221,8 +221,7 @@ allow_overlap: when False, add() refuses a body that certainly overlaps another 
 zeno_interval (time, >= 0): contacts of a body that follow each other sooner are marked as repeated, and
 bounce() takes no energy from those; otherwise a ball that comes to rest would bounce infinitely often in a
 finite time.
-spread_window_starts: for games, makes frames of equal length cost about the same; in total they cost
-more. Has no effect where the box repeats.
+spread_window_starts: accepted, without effect.
 adopt_observed_limits: a report that breaks the promise of its body raises the body's acceleration_limit to
 what explains the report, so that a body whose gravity was forgotten still meets what it falls on. Raises ValueError (InvalidValue) that names the argument.)")
       .def_property_readonly(

@@ -157,7 +157,7 @@ pub enum Run<'a> {
         resting_speed: f64,
     },
     /// The same answer for the same event. It is asked at every event, at ends too: look at `Event::kind` first, as
-    /// velocities that are exchanged at each end turn the two back to each other, for ever. With several threads it is called by several at a time.
+    /// velocities that are exchanged at each end turn the two back to each other, for ever.
     Respond(&'a (dyn Fn(&Event) -> Response + Sync)),
 }
 
@@ -587,7 +587,7 @@ impl World {
     /// At an event whose response has [`Response::stop`] the world is at the time of the event, and `on_event` may
     /// change it: add and remove bodies, teleport them. Elsewhere such calls fail with `run_in_progress`, as `advance`
     /// and `run` always do. Motions must move all bodies; one that a response removes leaves its motion, too. The
-    /// outcome is the same, bit for bit, for any number of threads from two on.
+    /// outcome is the same, bit for bit, for any number of threads.
     pub fn run<F: FnMut(&mut World, &Event)>(
         &mut self,
         until: f64,

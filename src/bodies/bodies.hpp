@@ -123,19 +123,6 @@ class Bodies {
   /// Moves the body to the image in which it lies in the primary box. Requires periodic space.
   void wrap_to_primary(std::uint32_t number, double now);
 
-  /// A copy of a body, to be restored later. Precondition: the body has no pending change.
-  struct Checkpoint {
-    Body body;
-    PeriodicImage image;
-  };
-  Checkpoint checkpoint(std::uint32_t number) const {
-    return {table_[number], space_.repeats() ? images[number] : PeriodicImage{}};
-  }
-  void restore(std::uint32_t number, const Checkpoint& checkpoint) {
-    table_[number] = checkpoint.body;
-    if (space_.repeats()) images[number] = checkpoint.image;
-  }
-
   /// Serializes all fields except the definition and what follows from it, the tag, and the pair filter.
   /// Bodies that are read get ids with tag 0.
   template <class Self, class Archive>

@@ -14,8 +14,8 @@ namespace kinesphere {
 namespace {
 
 /// Returns the position in the form in which a report can give it, or nullopt if it is too large. In periodic
-/// space a bound is in the image that the centre of its path selects; at times too coarse for short windows
-/// that image is any number of periods away.
+/// space a bound is in the image that the centre of its safe region selects; at times too coarse for small
+/// regions that image is any number of periods away.
 std::optional<Vec3> reported_place(const Vec3& position, const Space& space) {
   for (int axis = 0; axis < 3; ++axis)
     if (!(std::abs(position[axis]) <= limits::largest_size)) return std::nullopt;

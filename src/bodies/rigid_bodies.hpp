@@ -33,16 +33,6 @@ class RigidBodies : public RecordPool<RigidRecord> {
     return RecordPool::is_valid(bodies, [](const Body& body) { return body.is_rigid; });
   }
 
-  // For speculative execution.
-  /// Keeps the rotation of the body, if it is rigid.
-  void keep(const Body& body) {
-    if (body.is_rigid) (*this)[body].keep();
-  }
-  /// Gives the body the rotation that was kept.
-  void go_back(const Body& body) {
-    if (body.is_rigid) (*this)[body].go_back();
-  }
-
   /// Gives the rotations of bodies whose rotation is not known without; empty if there is none. Not archived.
   RotationProbe probe{};
 };

@@ -27,7 +27,6 @@ struct RigidRecord {
   Rotation origin{};
   double origin_time = 0.0;
   bool is_changed = false;  ///< `rotation` is from before the last change, until the next report
-  std::tuple<Rotation, Rotation, double, bool> kept{};  ///< for go_back()
 
   bool keeps_spin() const { return angular_acceleration_limit == 0.0; }
   /// Returns the largest angular speed until the next change (radians / time).
@@ -63,17 +62,13 @@ struct RigidRecord {
     if (is_fresh) rotation = now;
     is_changed = !is_fresh;
   }
-  /// Stores the present rotation for go_back().
-  void keep() { kept = {rotation, origin, origin_time, is_changed}; }
-  /// Undoes the reports and changes since keep().
-  void go_back() { std::tie(rotation, origin, origin_time, is_changed) = kept; }
   /// Returns the change of angular velocity by a unit impulse along `direction` at `arm` from the position of
   /// the body in this orientation.
   Vec3 spin_gain(const Quaternion& orientation, const Vec3& arm, const Vec3& direction) const;
 
   static void serialize(auto& self, auto& archive) {
     auto& [parts, balls, rotation, angular_acceleration_limit, largest_angular_speed, inertia, origin,
-           origin_time, is_changed, kept] = self;
+           origin_time, is_changed] = self;
     archive(parts, rotation, angular_acceleration_limit, largest_angular_speed, inertia, origin, origin_time,
             is_changed);
     if constexpr (std::same_as<std::remove_reference_t<decltype(archive)>, HeapCounter>)

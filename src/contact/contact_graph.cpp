@@ -59,11 +59,10 @@ void ContactGraph::set_state(const Event& contact, const ContactState& state) {
   set_half(b, a, &state);
 }
 
-/// Sets the state of `partner` in the list of `body` only; nullptr removes it. Lists of static bodies stay
-/// unchanged while statics_deferred_, and have no states.
+/// Sets the state of `partner` in the list of `body` only; nullptr removes it. Lists of static bodies have no
+/// states.
 void ContactGraph::set_half(std::uint32_t body, std::uint32_t partner, const ContactState* state) {
   const bool is_static = flags_[body].is_static();
-  if (statics_deferred_ && is_static) return;
   if (state != nullptr) {
     if (body >= partners_.size()) partners_.resize(body + std::size_t{1});
     partners_[body].set({partner, is_static ? ContactState{} : *state});
@@ -72,10 +71,8 @@ void ContactGraph::set_half(std::uint32_t body, std::uint32_t partner, const Con
   }
 }
 
-/// Adds or removes an overlap in the list of `body` only. Lists of static bodies stay unchanged while
-/// statics_deferred_.
+/// Adds or removes an overlap in the list of `body` only.
 void ContactGraph::set_overlap(std::uint32_t body, std::uint32_t partner, const Event& overlap, bool within) {
-  if (statics_deferred_ && flags_[body].is_static()) return;
   const OverlapRecord record{partner, overlap.distance, overlap.senses};
   if (within) {
     overlaps_.add(body, record);
@@ -120,13 +117,6 @@ void ContactGraph::set_links(std::uint32_t body, std::span<const ContactRecord> 
   for (const OverlapRecord& overlap : overlaps)
     overlaps_.add(overlap.partner, {body, overlap.distance, overlap.senses});
   overlaps_.set(body, overlaps);
-}
-
-void ContactGraph::start_side_by_side(bool with_sensors) {
-  statics_deferred_ = true;
-  // Allocates every list now: threads read the outer vectors concurrently, so these must not grow later.
-  if (partners_.size() < flags_.size()) partners_.resize(flags_.size());
-  if (with_sensors) overlaps_.make_lists(flags_.size());
 }
 
 /// Returns the bodies of the event whose contact rate counts it: all but those with shapes, which many bodies

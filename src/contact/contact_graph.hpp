@@ -56,8 +56,8 @@ class ContactGraph {
 
   bool touch(std::uint32_t a, std::uint32_t b) const { return contact_of(a, b) != nullptr; }
   bool touches_wall(std::uint32_t body, Wall wall) const { return (walls_of(body) & wall_bit(wall)) != 0; }
-  /// Returns the partners of a body in the order in which the contacts began. The list of a static body has
-  /// no defined order after concurrent execution, and says nothing of states. Invalidated when a contact of
+  /// Returns the partners of a body in the order in which the contacts began. The list of a static body
+  /// says nothing of states. Invalidated when a contact of
   /// the body begins, ends or changes.
   std::span<const ContactRecord> partners_of(std::uint32_t body) const {
     return body < partners_.size() ? partners_[body].all() : std::span<const ContactRecord>();
@@ -125,15 +125,9 @@ class ContactGraph {
   void set_links(std::uint32_t body, std::span<const ContactRecord> partners,
                  std::vector<OverlapRecord> overlaps);
 
-  // Between the next two calls, several threads may change the contacts of different bodies concurrently.
-  // Lists of static bodies, which any thread might touch, are frozen (see ContactCheckpoint::update_static).
-
-  void start_side_by_side(bool with_sensors);
-  void stop_side_by_side() { statics_deferred_ = false; }
-
   /// Serializes everything except the rules and the space, which follow from the world's definition.
   static void serialize(auto& self, auto& archive) {
-    auto& [rule, space, recent, flags, partners, overlaps, wait, in_tags] = self;
+    auto& [rule, space, recent, flags, partners, overlaps, in_tags] = self;
     archive(recent, flags, partners, overlaps);
   }
   /// Validates a graph that was read from bytes, for a world of `bodies` bodies: contacts must be mutual,
@@ -141,7 +135,7 @@ class ContactGraph {
   bool is_valid(std::size_t bodies, const std::optional<Box>& box) const;
 
  private:
-  friend struct ContactCheckpoint;
+  friend struct ContactsOfBody;
 
   enum class Form : std::uint8_t { ball, carried_shape, shape_at_rest };
   /// Per-body data other than lists.
@@ -174,7 +168,6 @@ class ContactGraph {
   std::vector<Flags> flags_;
   std::vector<PartnerList> partners_;  ///< by body, up to the last body that ever had a partner
   OverlapRecords overlaps_;
-  bool statics_deferred_ = false;  ///< true between start_side_by_side() and stop_side_by_side()
   bool numbers_in_tags_ = false;
 };
 

@@ -22,8 +22,7 @@ const char* Core::audit(const std::function<Claim(std::uint32_t, std::uint32_t)>
           norm(own.centre_at(time) - region_centre(ball)) + (own.radius_at(time) - own.radius) >
               double{ball.region} * unit_)
         return "H";
-    if (!ball.is(Ball::passive) && double{ball.region} * unit_ > widest_region(ball) * (1.0 + 0x1p-20))
-      return "N";
+    if (balls_.periods().any && ball.own > just_after(balls_.time()) && !(keeps_image(a) > 0.0)) return "N";
     if (ball.due > ball.own || ball.second < ball.due) return "D";
     for (std::uint32_t b = 0; b < a; ++b) {
       if (!present(b)) continue;

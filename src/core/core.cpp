@@ -92,8 +92,11 @@ void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
   }
   for (const std::uint32_t number : settling_)
     if (!balls_[number].is(Ball::passive)) note_change(number, host);
-  for (const std::uint32_t number : settling_) schedule(number, true, host);
-  if (balls_.size() <= 2 * queued_for_) return;
+  // For many more balls than before, the queue is made anew.
+  const bool are_many_more = balls_.size() > 2 * queued_for_;
+  if (are_many_more) queue_.forget();
+  for (const std::uint32_t number : settling_) schedule(number, false, host);
+  if (!are_many_more) return;
   queue_.refill(balls_.all(), balls_.time());
   queued_for_ = balls_.size();
 }

@@ -104,6 +104,9 @@ class Core {
   }
   /// Returns true if a ball with this bound, which was read from bytes, can have a safe region at `time`.
   bool can_hold(const Bound& bound, double time) const;
+  /// Returns true if the ball may leave its safe region at `time`: it reports before it gets another one, so
+  /// its bound may be of any size.
+  bool reports_now(std::uint32_t number, double time) const;
   /// Makes the rest anew after reading, at this time. Returns false if no core could have been so.
   bool rebuild(double time);
 
@@ -186,7 +189,7 @@ class Core {
 
   // scan.cpp
   void note_change(std::uint32_t number, Host& host);
-  void schedule(std::uint32_t number, bool has_changed, Host& host);
+  void schedule(std::uint32_t number, bool is_last, Host& host);
   std::span<const std::uint32_t> looked_out_for(std::uint32_t number,
                                                 std::span<const std::uint32_t> neighbours,
                                                 std::span<std::uint32_t> room) const;
@@ -237,6 +240,8 @@ class Core {
   void set_stay(std::uint32_t number, double stay);
   void limit_own(std::uint32_t number, double walls_until);
   double stays(std::uint32_t number) const;
+  double stays_inside(std::uint32_t number) const;
+  double keeps_image(std::uint32_t number) const;
   double clear_of_walls(std::uint32_t number, Host& host) const;
   double clear_of_wall(std::uint32_t number, const HalfSpace& inside) const;
 

@@ -43,6 +43,8 @@ class DueQueue {
     return ahead < present_.size() ? present_[present_.size() - 1 - ahead].ball : none;
   }
   std::size_t bytes() const;
+  /// Forgets all entries. push() does nothing until refill().
+  void forget() { heads_.clear(); }
   /// Enters all balls that are present anew. `now` is the time of the world.
   void refill(std::span<const Ball> balls, double now);
 

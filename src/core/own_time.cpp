@@ -60,13 +60,38 @@ double Core::clear_of_walls(std::uint32_t number, Host& host) const {
   return std::max(rounding::sum_down(balls_.time(), clear), balls_.time());
 }
 
+/// Returns a time for which the ball stays, from now on, so near the centre of its safe region on axes that
+/// repeat that its image is certain (widest_region()), as it does in a region that is not wider.
+double Core::keeps_image(std::uint32_t number) const {
+  const Ball& ball = balls_[number];
+  const double widest = widest_region(ball);
+  if (!(double{ball.region} * unit_ > widest) || ball.is(Ball::passive)) return infinity;
+  const Vec3 way = balls_.position(number) - region_centre(ball), velocity = balls_.velocity(number);
+  const double limit = ball.acceleration_limit + norm_one(balls_.plan(number));
+  double time = infinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(balls_.periods().length[axis] > 0.0)) continue;
+    const double room = widest - margin_ - balls_.growth(number) - std::abs(way[axis]);
+    if (!(room > 0.0)) return 0.0;
+    time = std::min(time, rounding::first_crossing(
+                              room, -(std::abs(velocity[axis]) + balls_.growth_speed(number)), -limit));
+  }
+  return time;
+}
+
+/// Returns a time for which the ball stays in its safe region from now on, where its image is certain.
+double Core::stays(std::uint32_t number) const {
+  const double stay = stays_inside(number);
+  return balls_.periods().any ? std::min(stay, keeps_image(number)) : stay;
+}
+
 /// Returns a time for which the centre stays in the safe region from now on.
 ///
 /// Ahead of now, the bound is a ball around q + v t that grows; q is seen from the middle of the region. What
 /// a planned acceleration adds counts as growth. The way that is left to the border of the region, which is
 /// its radius less the growth and |q + v t|, is a concave function of t. So if it is positive at both ends of
 /// a span, it is positive throughout: a time is guessed by Newton's method, and then tried.
-double Core::stays(std::uint32_t number) const {
+double Core::stays_inside(std::uint32_t number) const {
   const Ball& ball = balls_[number];
   const Vec3 q = balls_.position(number) - region_centre(ball), v = balls_.velocity(number);
   const double rate = balls_.growth_speed(number),

@@ -74,6 +74,13 @@ bool Core::can_hold(const Bound& bound, double time) const {
   return norm_one(bound.centre_at(time)) + bound.radius_at(time) < 0x1p61 * unit_;
 }
 
+bool Core::reports_now(std::uint32_t number, double time) const {
+  if (!contains(number)) return false;
+  const Ball& ball = balls_[number];
+  return !ball.is(Ball::arriving) && ball.about == none && !ball.is(Ball::at_wall) && ball.due <= time &&
+         ball.time < time;
+}
+
 bool Core::rebuild(double time) {
   balls_.set_time(time);
   if (!balls_.has_valid_drifts() || saved_.reaches.size() != balls_.size() ||
@@ -108,7 +115,9 @@ void Core::assemble() {
 bool Core::is_valid(std::uint32_t number, std::span<const std::vector<std::uint32_t>> lists) const {
   const Ball& ball = balls_[number];
   if (!balls_.is_valid(number) || !(ball.radius < 0x1p32 * unit_)) return false;
-  if (ball.is_present() && !can_hold(balls_.bound(number), balls_.time())) return false;
+  if (ball.is_present() && !can_hold(balls_.bound(number), balls_.time()) &&
+      !reports_now(number, balls_.time()))
+    return false;
   const std::vector<std::uint32_t>& neighbours = lists[number];
   if (!ball.is_present()) return neighbours.empty();
   if (changes_[number] > most_changes || (ball.is(Ball::passive) && changes_[number] != 0)) return false;

@@ -46,7 +46,9 @@ float Core::reach(const Ball& ball) const {
 }
 
 /// Returns the radius (length) of the widest safe region with which two neighbours can meet in one image only
-/// while both are in theirs: their centres are closer than half the period then.
+/// while both are in theirs: their centres are closer than half the period then. Where a ball is so far away
+/// on an axis that does not repeat that single precision tells no such lengths apart, its region is wider,
+/// and keeps_image() limits its time there.
 double Core::widest_region(const Ball& ball) const {
   double widest = infinity;
   for (int axis = 0; axis < 3; ++axis)
@@ -135,7 +137,8 @@ void Core::place_region(std::uint32_t number, double radius) {
   const double step = 0x1p-49 * std::abs(balls_.time());
   radius = std::max(radius, (speed + balls_.growth_speed(number) + ball.acceleration_limit * step) * step);
   const double widest = std::min(widest_region(ball), largest_region * unit_);
-  radius = stands ? 0.0 : std::min(radius, widest - growth - resolved);
+  const double room = widest - growth - resolved;
+  radius = stands ? 0.0 : std::min(radius, room > 0.0 ? room : 0.5 * std::max(widest - growth, 0.0));
   if (speed > 0.0) centre += motion * (ahead * radius / speed);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(balls_.periods().length[axis] > 0.0) || ball.is(Ball::passive)) continue;

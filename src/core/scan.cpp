@@ -11,7 +11,8 @@ namespace kinesphere::core {
 
 /// A ball has changed: it looks out for all of its neighbours from now on, and for those that it touches.
 void Core::note_change(std::uint32_t number, Host& host) {
-  const Ball& ball = balls_[number];
+  Ball& ball = balls_[number];
+  ball.set(Ball::crowded, false);
   std::uint64_t last = changes_[number];
   for (const std::uint32_t other : lists_.at(ball.list)) last = std::max(last, changes_[other]);
   if (ball.is(Ball::linked))
@@ -20,20 +21,20 @@ void Core::note_change(std::uint32_t number, Host& host) {
 }
 
 /// Computes when a ball is due: at its own time, or when something may happen between it and a neighbour that
-/// it looks out for, if that is earlier. `has_changed`: it has just done so, so that it looks out for all.
-void Core::schedule(std::uint32_t number, bool has_changed, Host& host) {
+/// it looks out for, if that is earlier. `is_last`: it has changed last of all of them, so it looks out for
+/// all.
+void Core::schedule(std::uint32_t number, bool is_last, Host& host) {
   Ball& ball = balls_[number];
   if (ball.is(Ball::passive)) return;
   if (ball.scans < 255) ++ball.scans;
   ball.about = none;
   ball.due = ball.second = ball.own;
-  if (has_changed) ball.set(Ball::crowded, false);
   const auto neighbours = lists_.at(ball.list);
   Counters& work = host.work_counters(number);
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     std::array<std::uint32_t, most_lanes> room;
     auto some = neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes));
-    if (!has_changed) some = looked_out_for(number, some, room);
+    if (!is_last) some = looked_out_for(number, some, room);
     std::array<double, most_lanes> apart;
     for (std::uint32_t left = candidates(number, some, ball.second - balls_.time(), apart); left != 0;
          left &= left - 1) {

@@ -84,7 +84,8 @@ const char* World::Engine::first_invalid_part() const {
     const bool registered = is_registered(number);
     if (body.alive && !contacts().has_form_of(number, body.has_shape(), body.is_static())) return "contacts";
     if (takes_part ? !registered && !bodies()[number].dirty : registered) return "safe regions";
-    if (takes_part && !core().can_hold(body.bound, time())) return "safe regions";
+    if (takes_part && !core().can_hold(body.bound, time()) && !core().reports_now(number, time()))
+      return "safe regions";
     if (registered && body.is_static() && box_end(number) != infinity) return "safe regions";
     if (!takes_part && (!contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty()))
       return "contacts";

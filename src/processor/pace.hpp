@@ -9,8 +9,9 @@
 
 namespace kinesphere {
 
-/// Measures how far time goes in each block of instants without an event. Windows of bodies are the shorter
-/// the larger their limits are: a limit of 1e30 in place of "any" makes windows of 1e-12 to 1e-17.
+/// Measures how far time goes in each block of instants without an event. Bodies stay in their safe regions
+/// for the shorter the larger their limits are: a limit of 1e30 in place of "any" makes times of 1e-12 to
+/// 1e-17.
 class Pace {
  public:
   /// Begins a call that advances from `time` to `until`.
@@ -23,7 +24,7 @@ class Pace {
     begin_ = time;
     instants_ = 0;
   }
-  /// Counts an instant. Returns an error that names the body with the shortest windows if, at the pace of the
+  /// Counts an instant. Returns an error that names the body with the loosest promise if, at the pace of the
   /// last block, the end of the call is more instants away than a processor can work off in a day.
   Result<void> note_instant(const Bodies& bodies, double time) {
     return ++instants_ < block ? Result<void>() : check(bodies, time);

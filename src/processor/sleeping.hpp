@@ -1,9 +1,9 @@
 // Sleeping handles bodies that the caller put to sleep, and what wakes them.
 //
 // A sleeping body has a bound that stands still: no velocity, planned acceleration, growth or limits. The
-// rest follows from the general rules: its report never becomes old, its window has no end, and neither have
-// certificates with other bodies that stand still. The motion limits that apply after it wakes are in a side
-// table.
+// rest follows from the general rules: its report never becomes old, its own time never comes, and neither
+// have certificates with other bodies that stand still. The motion limits that apply after it wakes are in a
+// side table.
 //
 // Bodies in contact wake together, as an island. Contact is decided from current gaps, not from the contact
 // graph, which drops bouncing bodies that do not approach. The search includes bodies that were changed since

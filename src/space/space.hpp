@@ -1,14 +1,14 @@
 // The space in which bodies move: unbounded, a plane, or a box that repeats.
 //
 // On an axis that repeats, the box's size L there is the period. A body at x is also at x + n L for all whole
-// n: its images. The world keeps one image of each body. For that image, take the box around the body's way
-// in its window, with the radius at the window's end and the margin for what the body senses: the centre of
-// this box lies in the primary box. Two rules, (1) on bodies and (2) on these boxes, ensure that a pair has
+// n: its images. The world keeps one image of each body. For that image, take the box around the body's safe
+// region, with its radius and the margin for what the body senses: the centre of this box lies in the primary
+// box. Two rules, (1) on bodies and (2) on these boxes, ensure that a pair has
 // to be examined in one image only. Let r be the radius of a body plus its sensing distance, e0 the error of
 // its reports, and h the gap at which a contact has certainly ended (separation distance and tolerance):
 //   (1) 2 r + 6 e0 + h <= 3/8 L, which a body with a third of the box for its diameter obeys;
 //   (2) the box is narrower than L/2 - h - 4 e0: by (1) that leaves at least L/8 to move in (a little less,
-//       for rounding: docs/guarantee.md). Windows are chosen so short that rule (2) holds.
+//       for rounding: docs/guarantee.md). Safe regions are chosen so small that rule (2) holds.
 // By (2) the centres of two boxes that overlap are less than L/2 apart on every axis that repeats. The boxes
 // therefore overlap in at most one image, the one in which their centres are nearest. Bodies that touch do so
 // in this image too, even when they have moved apart up to h and their boxes no longer overlap: reports are

@@ -79,20 +79,6 @@ TEST(RigidRecord, CountsASpinThatAwaitsAReport) {
   EXPECT_EQ(record.surface_acceleration(2.0), 18.0);
 }
 
-TEST(RigidRecord, GoesBackToWhatWasKept) {
-  RigidRecord record = turning({0, 0, 1}, 0.0);
-  record.keep();
-  const Rotation rotation = record.rotation;
-  const Rotation origin = record.origin;
-  record.change({{}, {5, 0, 0}}, 1.0, true);
-  record.report(record.at(2.0), 2.0);
-  record.go_back();
-  EXPECT_EQ(record.rotation, rotation);
-  EXPECT_EQ(record.origin, origin);
-  EXPECT_EQ(record.origin_time, 0.0);
-  EXPECT_FALSE(record.is_changed);
-}
-
 TEST(RigidRecord, IsReadWithTheBallsAroundItsParts) {
   const RigidRecord record = turning({1, 2, 3}, 4.0);
   RigidRecord back;

@@ -94,6 +94,26 @@ TEST(NeighbourLists, TellWhoIsGoneAndWhoIsNew) {
 }
 
 /// Balls are due in order of time and number, also where many are due at one time, or only far away.
+TEST(DueQueue, ForgetsAllUntilItIsFilledAnew) {
+  std::vector<Ball> balls(100);
+  for (std::uint32_t number = 0; number < 100; ++number) {
+    balls[number].due = 1.0 + number;
+    balls[number].slot = number;
+  }
+  DueQueue queue;
+  queue.refill(balls, 0.0);
+  queue.forget();
+  balls[7].due = 0.5;
+  queue.push(balls, 7);
+  queue.refill(balls, 0.0);
+  EXPECT_EQ(queue.first(balls, 200.0).ball, 7u);
+  for (std::uint32_t taken = 0; taken < 100; ++taken) {
+    ASSERT_LT(queue.first(balls, 200.0).time, 200.0);
+    balls[queue.take_first()].due = infinity;
+  }
+  EXPECT_EQ(queue.first(balls, 200.0).time, infinity) << "each once";
+}
+
 TEST(DueQueue, GivesBallsInOrder) {
   for (const double spread : {1e-9, 1.0, 1e6}) {
     for (const std::uint32_t count : {1u, 10u, 3000u}) {

@@ -228,9 +228,6 @@ TEST(DistributedFailures, OfArguments) {
   const auto refused = DistributedWorld::create(strict, *fixture.motion);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
-  const auto spread = DistributedWorld::create({.spread_window_starts = true}, *fixture.motion);
-  ASSERT_FALSE(spread);
-  EXPECT_EQ(spread.error().argument, "spread_window_starts");
   expect_everywhere(world.run(std::nan(""), silent), ErrorCode::not_finite, "run: until");
 }
 

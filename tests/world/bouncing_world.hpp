@@ -30,8 +30,7 @@ struct BouncingWorld {
   double last = -std::numeric_limits<double>::infinity();  ///< the time of the last event
 
   BouncingWorld(OfMotion moved_by, World empty, double bounciness)
-      : motion(std::move(moved_by)), world(std::move(empty)), restitution(bounciness) {
-  }
+      : motion(std::move(moved_by)), world(std::move(empty)), restitution(bounciness) {}
   /// Adds the next body of the motion.
   void add(const BodyDefinition& body, double mass) {
     world.add(body).value();

@@ -275,12 +275,12 @@ TEST(WrongChange, IsRefusedAndLeavesNoTrace) {
 }
 
 TEST(WrongChange, TwoTeleportsToOnePlaceAtOneStop) {
-    Playground p({.allow_overlap = false});
-    const BodyId a = p.add({.radius = 1});
-    const BodyId b = p.add({.radius = 1, .position = {8, 0, 0}});
-    p.world.teleport(a, {{50, 0, 0}, {}}).value();
-    expect_error(p.world.teleport(b, {{50, 1, 0}, {}}), ErrorCode::overlapping, "teleport");
-    EXPECT_TRUE(p.world.teleport(b, {{0, 0, 0}, {}})) << "the place is free again";
+  Playground p({.allow_overlap = false});
+  const BodyId a = p.add({.radius = 1});
+  const BodyId b = p.add({.radius = 1, .position = {8, 0, 0}});
+  p.world.teleport(a, {{50, 0, 0}, {}}).value();
+  expect_error(p.world.teleport(b, {{50, 1, 0}, {}}), ErrorCode::overlapping, "teleport");
+  EXPECT_TRUE(p.world.teleport(b, {{0, 0, 0}, {}})) << "the place is free again";
 }
 
 TEST(WrongChange, NamesEachNumberThatIsWrong) {

@@ -379,18 +379,18 @@ TEST(ChangingRadii, PushOffAWallAndShrinkToPoints) {
 /// What stands still has no report of the time at which a ball that shrinks is near.
 TEST(ChangingRadii, MeetWhatHasStoodStillForLong) {
   for (const bool sleeps : {false, true}) {
-      SCOPED_TRACE(sleeps ? "sleeping" : "static");
-      Playground p({.contact_tolerance = eps});
-      if (sleeps)
-        p.world.sleep(p.add({.radius = 1.0})).value();
-      else
-        p.world.add_static({.shape = Ball{{}, 1.0}}).value();
-      p.run(100.0);
-      p.add({.radius = 1.0, .position = {5, 0, 0}, .velocity = {-1, 0, 0}, .radius_rate = -0.1});
-      const auto begins = of_kind(p.run(104.0), EventKind::contact_begin);
-      ASSERT_EQ(begins.size(), 1u);
-      EXPECT_NEAR(begins[0].time, 100.0 + 3.0 / 0.9, 1e-5);
-    }
+    SCOPED_TRACE(sleeps ? "sleeping" : "static");
+    Playground p({.contact_tolerance = eps});
+    if (sleeps)
+      p.world.sleep(p.add({.radius = 1.0})).value();
+    else
+      p.world.add_static({.shape = Ball{{}, 1.0}}).value();
+    p.run(100.0);
+    p.add({.radius = 1.0, .position = {5, 0, 0}, .velocity = {-1, 0, 0}, .radius_rate = -0.1});
+    const auto begins = of_kind(p.run(104.0), EventKind::contact_begin);
+    ASSERT_EQ(begins.size(), 1u);
+    EXPECT_NEAR(begins[0].time, 100.0 + 3.0 / 0.9, 1e-5);
+  }
 }
 
 /// A ball of great growth that leaves its promised course by little is told.

@@ -145,5 +145,19 @@ TEST(FarImages, APositionThatDoublesDoNotResolveIsRefused) {
   }
 }
 
+/// Single precision does not tell lengths of the period apart on the axes that do not repeat.
+TEST(FarImages, FarAwayOnAnAxisThatDoesNotRepeat) {
+  Playground p(
+      {.box = Box{{0, -1e9, -1e9}, {3, 1e9, 1e9}}, .periodic = {.x = true}, .contact_tolerance = 1e-3});
+  constexpr double far = 9.4e8;
+  p.add({.radius = 0.2, .acceleration_limit = 0.1, .position = {0.5, far, -far}, .velocity = {-1, 0, 0}});
+  p.add({.radius = 0.2, .acceleration_limit = 0.1, .position = {1.5, far, -far}, .velocity = {1, 0, 0}});
+  const auto begins = of_kind(p.run(20.0), EventKind::contact_begin);
+  ASSERT_FALSE(begins.empty()) << "they meet beyond the border";
+  EXPECT_NEAR(begins[0].time, 0.8, 1e-3);
+  EXPECT_TRUE(is_clean(p.world));
+  EXPECT_LT(p.world.counters().starts, 2000u);
+}
+
 }  // namespace
 }  // namespace kinesphere::far_images_test

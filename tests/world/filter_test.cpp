@@ -119,18 +119,18 @@ RigidBody rod_of(const BodyDefinition& body) {
 
 TEST(FilterOfWalls, LetsBodiesPassAndCostsNoProbes) {
   for (const Filter& filter : let_through) {
-      Playground p(with_filtered_walls);
-      const BodyDefinition body{.radius = 1, .position = {5, 5, 5}, .velocity = {1, 0, 0}, .filter = filter};
-      const BodyId ball = p.add(body);
-      BodyDefinition beside = body;
-      beside.position.y = 2;
-      const BodyId rod = p.add_rigid_body(rod_of(beside));
-      EXPECT_EQ(p.world.certificates().earliest_contact(ball).value().wall, Wall::none);
-      EXPECT_EQ(p.world.certificates().earliest_approach(rod, 1.0).value().wall, Wall::none);
-      EXPECT_TRUE(p.run(20.0).empty());
-      EXPECT_TRUE(is_clean(p.world));
-      EXPECT_EQ(p.world.counters().wall_checks, 0u);
-    }
+    Playground p(with_filtered_walls);
+    const BodyDefinition body{.radius = 1, .position = {5, 5, 5}, .velocity = {1, 0, 0}, .filter = filter};
+    const BodyId ball = p.add(body);
+    BodyDefinition beside = body;
+    beside.position.y = 2;
+    const BodyId rod = p.add_rigid_body(rod_of(beside));
+    EXPECT_EQ(p.world.certificates().earliest_contact(ball).value().wall, Wall::none);
+    EXPECT_EQ(p.world.certificates().earliest_approach(rod, 1.0).value().wall, Wall::none);
+    EXPECT_TRUE(p.run(20.0).empty());
+    EXPECT_TRUE(is_clean(p.world));
+    EXPECT_EQ(p.world.counters().wall_checks, 0u);
+  }
 }
 
 TEST(FilterOfWalls, StopsTheOthers) {

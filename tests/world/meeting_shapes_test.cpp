@@ -291,13 +291,13 @@ TEST_P(RandomMeetings, AreReportedWhenTheyHappen) {
   EXPECT_GT(begins, with_static + 5u);
 }
 
-INSTANTIATE_TEST_SUITE_P(, RandomMeetings,
-                         testing::ValuesIn(scenes_of_each<ContactScene>(
-                             {ContactScene{ContactEvents::begin_and_end, 0.0, 1},
-                              ContactScene{ContactEvents::begin_and_end, 0.02, 2},
-                              ContactScene{ContactEvents::impacts, 0.0, 3},
-                              ContactScene{ContactEvents::impacts, 0.01, 4},
-                              ContactScene{ContactEvents::begin_and_end, 0.02, 5}})));
+INSTANTIATE_TEST_SUITE_P(
+    , RandomMeetings,
+    testing::ValuesIn(scenes_of_each<ContactScene>({ContactScene{ContactEvents::begin_and_end, 0.0, 1},
+                                                    ContactScene{ContactEvents::begin_and_end, 0.02, 2},
+                                                    ContactScene{ContactEvents::impacts, 0.0, 3},
+                                                    ContactScene{ContactEvents::impacts, 0.01, 4},
+                                                    ContactScene{ContactEvents::begin_and_end, 0.02, 5}})));
 
 // What events say.
 

@@ -198,13 +198,13 @@ TEST_P(RandomMovingShapes, MeetWhatTheyTouch) {
   EXPECT_LE(counters.pair_checks, 2 * counters.probes);
 }
 
-INSTANTIATE_TEST_SUITE_P(, RandomMovingShapes,
-                         testing::ValuesIn(scenes_of_each<ContactScene>(
-                             {ContactScene{ContactEvents::begin_and_end, 0.0, 1},
-                              ContactScene{ContactEvents::begin_and_end, 0.5, 2},
-                              ContactScene{ContactEvents::impacts, 0.0, 3},
-                              ContactScene{ContactEvents::impacts, 0.01, 4},
-                              ContactScene{ContactEvents::begin_and_end, 0.5, 5}})));
+INSTANTIATE_TEST_SUITE_P(
+    , RandomMovingShapes,
+    testing::ValuesIn(scenes_of_each<ContactScene>({ContactScene{ContactEvents::begin_and_end, 0.0, 1},
+                                                    ContactScene{ContactEvents::begin_and_end, 0.5, 2},
+                                                    ContactScene{ContactEvents::impacts, 0.0, 3},
+                                                    ContactScene{ContactEvents::impacts, 0.01, 4},
+                                                    ContactScene{ContactEvents::begin_and_end, 0.5, 5}})));
 
 constexpr Box plate{{-1, -1, 0}, {1, 1, 0.5}};
 

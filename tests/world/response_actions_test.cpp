@@ -32,8 +32,7 @@ struct Game {
   std::size_t told = 0;
   std::size_t stops = 0;
 
-  Game(World empty, std::unique_ptr<Motion> moved_by) : world(std::move(empty)), crowd(std::move(moved_by)) {
-  }
+  Game(World empty, std::unique_ptr<Motion> moved_by) : world(std::move(empty)), crowd(std::move(moved_by)) {}
   virtual ~Game() = default;
 
   virtual Response respond(const Event& event) const = 0;

@@ -39,7 +39,7 @@ export interface WorldDefinition {
   /** >= 0 (time): contacts of a body that follow each other sooner are `repeated`. */
   zenoInterval?: number;
   startTime?: number;
-  /** For games: frames of equal length cost about the same, and more in total. Has no effect in periodic space. */
+  /** Has no effect. */
   spreadWindowStarts?: boolean;
   /** A report that breaks the promise of its body raises the body's accelerationLimit; by default true. */
   adoptObservedLimits?: boolean;

@@ -9,9 +9,9 @@
 //   world.run(60.0, respond, sink).value();
 //
 // The processes are the ranks of MPI_COMM_WORLD, started by mpirun. Each rank owns the bodies in its region
-// of space and holds ghosts of bodies nearby. Events are bitwise equal to those of one World::run with
-// several threads, equal bodies and indices, for any number of ranks and threads and any assignment of bodies
-// to the ranks that add them.
+// of space and holds ghosts of bodies nearby. Events are bitwise equal to those of one World with equal
+// bodies and indices, for any number of ranks and any assignment of bodies to the ranks that add them. Small
+// worlds gain nothing from ranks (docs/distributed.md).
 #pragma once
 
 #include <cstddef>
@@ -52,12 +52,12 @@ using OrderedEventFn = Callback<void(const OrderedEvent& event)>;
 /// Work, memory and traffic of one rank.
 struct RankFigures {
   std::uint64_t bodies = 0;       ///< bodies owned by this rank
-  std::uint64_t ghosts = 0;       ///< ghosts of bodies owned by other ranks
+  std::uint64_t ghosts = 0;       ///< of bodies owned by other ranks, in the last slab of time
   std::uint64_t bytes = 0;        ///< sent to other ranks so far
   std::uint64_t messages = 0;     ///< point-to-point messages sent
   std::uint64_t collectives = 0;  ///< collective calls
-  std::uint64_t batches = 0;      ///< batches: time intervals that end in an agreement of all ranks
-  std::uint64_t rounds = 0;       ///< exchange rounds within batches
+  std::uint64_t batches = 0;      ///< slabs of time, each of which ends in an agreement of all ranks
+  std::uint64_t rounds = 0;       ///< tries of slabs; a slab that fails is tried again
   std::uint64_t partitions = 0;   ///< number of times that space was partitioned
   double seconds_in_mpi = 0.0;    ///< processor time in MPI, including time spent waiting for other ranks
 
@@ -75,7 +75,8 @@ class DistributedWorld {
  public:
   /// Collective. Creates an empty world. `motion` moves the bodies of this rank and must outlive the world.
   /// Bodies migrate between ranks with Motion::write_body and read_body, so all ranks need motions of equal
-  /// definition. Errors: those of World::create; unsupported (allow_overlap).
+  /// definition; responses need origin() and set_origin(), too. Errors: those of World::create; unsupported
+  /// (allow_overlap).
   [[nodiscard]] static Result<DistributedWorld> create(const WorldDefinition& definition, Motion& motion);
   DistributedWorld(DistributedWorld&&) noexcept;
   DistributedWorld& operator=(DistributedWorld&&) noexcept;
@@ -97,11 +98,11 @@ class DistributedWorld {
   /// (sensor_class: there are bodies). After an error the world is unchanged and can continue.
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
 
-  /// Collective. Advances to `until` as World::run does. `respond` is called on each rank that owns a body of
-  /// the event or holds a ghost of it, and must return equal responses everywhere; without it, events get no
-  /// response. `sink` receives, in order, the events whose first body is owned by this rank. `workers` may
-  /// differ between ranks. Errors: those of World::run; callback_threw where World::run would propagate an
-  /// exception; out_of_range (index) where two ranks have added bodies of equal index.
+  /// Collective. Advances to `until` as World::run does. `respond` may be called several times for one event,
+  /// and on several ranks, and must be a pure function, with equal responses everywhere; without it, events
+  /// get no response. `sink` receives, in order, the events whose first body is owned by this rank, each
+  /// once. `workers` have no effect. Errors: those of World::run; callback_threw where World::run would
+  /// propagate an exception; out_of_range (index) where two ranks have added bodies of equal index.
   Result<void> run(double until, const ResponseFn& respond, const OrderedEventFn& sink,
                    Workers* workers = nullptr);
   Result<void> run(double until, const OrderedEventFn& sink, Workers* workers = nullptr);
@@ -123,9 +124,7 @@ class DistributedWorld {
   const WorldDefinition& definition() const;
   /// Collective. Returns the number of bodies of all ranks.
   std::uint64_t size() const;
-  /// Collective. Returns the counters summed over all ranks. Counters that depend on how swept spheres are
-  /// stored (searches, candidates, hot_pairs) differ from those of one World, and so may wall_checks where
-  /// rigid bodies meet walls.
+  /// Collective. Returns the counters summed over all ranks, which count work on the bodies that each owns.
   Counters counters() const;
   /// Collective. Returns the hash of all events reported so far, over all ranks.
   EventHash hash() const;

@@ -103,8 +103,7 @@ void add_steps(Summary& summary, const Counters& counters) {
     summary.row(kind, grouped(count),
                 percent(static_cast<double>(count), static_cast<double>(counters.steps())));
   };
-  summary.row("steps", grouped(counters.steps()),
-              fmt::format("{} ends of windows", grouped(counters.window_ends)));
+  summary.row("steps", grouped(counters.steps()));
   row("  starts", counters.starts);
   row("  restarts", counters.restarts);
   row("  pair checks", counters.pair_checks);
@@ -184,9 +183,10 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
                    "Time between snapshots; a hundredth of the scene's when not given")
       ->check(finite_number());
   command
-      ->add_option("--threads", options.threads,
-                   "Let the world go on by itself (World::run) with so many threads; the outcome is the same "
-                   "for any number from two on")
+      ->add_option(
+          "--threads", options.threads,
+          "Let the world go on by itself (World::run); so many threads share the reports of many bodies "
+          "at once, and the outcome is the same for any number")
       ->check(whole_number(Workers::most_threads, 1));
   command->add_flag("--explain", options.explain,
                     "Print the bodies that cost most probes, with the reasons and what helps (one thread)");
