@@ -203,6 +203,8 @@ ContactDecision ContactPredictor<Partner>::decide(const Event& current, const Re
   const double gap = beyond > rule_.tolerance() ? beyond : beyond - resolution();
   const double guarded = rule_.guarded_gap(gap);
   double time = meeting(guarded);
+  // No certificate guards what cannot be known. Before the two have separated, no other approach begins.
+  if (!stays && hides_depth(gap)) time = std::min(time, separated(beyond, limits));
   const double hidden_approach = std::max(current.approach_speed + error, 0.0);
   const double later = least_check(time, beyond, guarded, limits.speed_error + hidden_approach, limits);
   if (time < later) {
@@ -241,6 +243,18 @@ double ContactPredictor<Partner>::arm(double gap) const {
     return arm_of(partner_, gap);
   else
     return std::is_same_v<Partner, HalfSpace> ? infinity : gap + bound_.radius;
+}
+
+/// True if the two may be deeper in each other than the gap: hulls do not know how deep they overlap beyond
+/// their radii.
+template <class Partner>
+bool ContactPredictor<Partner>::hides_depth(double gap) const {
+  if constexpr (is_rigid_pair<Partner> && !std::is_same_v<Partner, RigidPair<HalfSpace>>) {
+    double deepest = -(least_radius(partner_.body.parts) + threshold_.distance);
+    if constexpr (requires { partner_.other.parts; }) deepest -= least_radius(partner_.other.parts);
+    return gap <= deepest;
+  }
+  return false;
 }
 
 /// Upper bound of the rounding error in the present gap (length).

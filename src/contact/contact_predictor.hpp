@@ -95,6 +95,7 @@ class ContactPredictor {
     return earliest_separation(bound_, partner_, now_, horizons_.separation, gap + threshold_.distance);
   }
   double arm(double gap) const;
+  bool hides_depth(double gap) const;
   double resolution() const;
   double largest_speed(const RelativeLimits& limits) const;
   double sinking_from(double gap) const;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "kinesphere/response.hpp"
 #include "support/playground.hpp"
@@ -58,7 +59,7 @@ TEST(Impacts, BodyThatCameOutOfAnOverlapIsSeenWhenItComesBack) {
     Playground p(definition);
     if (!wall) p.add({.radius = 0, .position = {0, 0, 0}});
     const BodyId ball = p.add({.radius = 1, .acceleration_limit = 2, .position = {0.5, 0, 0}}, Vec3{});
-    // Many velocity changes make large swept spheres affordable, so that no new one begins in between.
+    // Many changes in an empty neighbourhood make its safe region wide, so that no new one begins in between.
     for (int k = 0; k < 20; ++k) {
       p.set_velocity(ball, {});
       for (const Event& event : p.run(0.0)) EXPECT_EQ(event.kind, EventKind::zeno_guard) << event;
@@ -70,6 +71,33 @@ TEST(Impacts, BodyThatCameOutOfAnOverlapIsSeenWhenItComesBack) {
     EXPECT_LE(events[0].gap, 1e-6);
     EXPECT_GE(events[0].gap, -1e-6);
     EXPECT_NEAR(events[0].time, 1.0 + std::sqrt(0.5), 1e-5);  // x = 0.5 + 2 t - t^2 is 1 again
+  }
+}
+
+/// Hulls without a radius do not know how deep they overlap, so nothing tells how far this one is from
+/// leaving.
+TEST(Impacts, EachDipOfABarThatTurnsIsSeen) {
+  for (const bool moves : {false, true}) {
+    Playground p(impacts);
+    const Box other{{-10, -1e5, -10}, {0, 1e5, 10}};
+    if (moves)
+      p.add_rigid_body({.parts = {box_part(other, 0.0)}});
+    else
+      p.world.add_static({.shape = other}).value();
+    // On its long way with no others, its safe region becomes wide.
+    const BodyId bar = p.add_rigid_body({.body = {.position = {0.5, 0, 0}, .velocity = {0, 1, 0}},
+                                         .parts = {box_part(Box{{-1, -0.1, -0.1}, {1, 0.1, 0.1}}, 0.0)},
+                                         .rotation = {.angular_velocity = {0, 0, std::numbers::pi}}});
+    // A corner is in the plane x = 0 when cos(a) - 0.1 sin(a) = -0.5.
+    const double dip = (std::acos(-0.5 / std::hypot(1.0, 0.1)) - std::atan(0.1)) / std::numbers::pi;
+    EXPECT_EQ(p.run(0.5).size(), moves ? 1u : 0u) << "it may approach at the start";
+    for (int turn = 0; turn < 40; ++turn) {
+      // A change while it leaves.
+      if (turn % 2 == 1) p.set_velocity(bar, {0, 1, 0});
+      const auto events = p.run(turn + 1.25);
+      ASSERT_EQ(events.size(), 1u) << events;
+      EXPECT_NEAR(events[0].time, turn + dip, 1e-5);
+    }
   }
 }
 
