@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "bodies/rigid_bodies.hpp"
-#include "bound/carried_shape.hpp"
 #include "bound/rigid_certificates.hpp"
 #include "bound/shape_difference.hpp"
 #include "kinesphere/shape.hpp"
@@ -20,10 +19,15 @@ struct CollisionShape {
   /// Shape of a static body that is not a ball (`bound` then is one point of it), or a carried one, whose
   /// origin is the centre of `bound`.
   const Shape* shape = nullptr;
-  double carried_radius = 0.0;         ///< CarriedShape::radius, RigidExtent::radius
+  double carried_radius = 0.0;         ///< Placed::radius, RigidExtent::radius
   const RigidRecord* rigid = nullptr;  ///< of a rigid body
 
   bool is_carried() const { return shape != nullptr && !is_static; }
+  /// A solid that is where the shape is. Precondition: the body has a shape.
+  template <class Solid>
+  Placed<Solid> placed(const Solid& solid) const {
+    return {solid, is_static ? nullptr : &bound, carried_radius};
+  }
   /// Precondition: the body is rigid.
   RigidExtent extent() const {
     return {bound,
@@ -37,19 +41,20 @@ struct CollisionShape {
 };
 
 /// Calls visit(partner) with what stands for a body that is not rigid: `ball`, or its shape, which is a
-/// HalfSpace, Box, Triangle or Mesh at rest, or a CarriedShape.
+/// HalfSpace or a Placed solid.
 template <class BallLike, class Visit>
 auto visit_partner(const CollisionShape& body, const BallLike& ball, Visit visit) {
   if (!body.shape) return visit(ball);
   return std::visit(
       [&]<class Solid>(const Solid& solid) {
-        if constexpr (std::is_same_v<Solid, Ball>) {
+        if constexpr (std::is_same_v<Solid, Ball>)
           return visit(ball);
-        } else {
-          if constexpr (!std::is_same_v<Solid, HalfSpace>)
-            if (body.is_carried()) return visit(CarriedShape<Solid>{solid, body.bound, body.carried_radius});
+        else if constexpr (std::is_same_v<Solid, HalfSpace>)
           return visit(solid);
-        }
+        else if constexpr (std::is_same_v<Solid, Mesh>)
+          return visit(body.placed(solid));
+        else
+          return visit(body.placed(Convex(solid)));
       },
       *body.shape);
 }
@@ -83,19 +88,14 @@ auto visit_two_shapes(const CollisionShape& a, const CollisionShape& b, Visit vi
     point.radius += rounding::margin * (std::abs(wall->offset) + own.carried_radius);
     return visit(point, difference_of(*own.shape, *wall));
   }
-  const auto beside = [&]<class Solid>(const Solid& solid) {
-    if (other.is_carried())
-      return visit(point, CarriedShape<Solid>{solid, other.bound, other.carried_radius});
-    return visit(point, solid);
-  };
   const auto* const box = std::get_if<Box>(own.shape);
   const auto* const other_box = std::get_if<Box>(other.shape);
-  if (box && other_box) return beside(difference_of(*box, *other_box));
-  return beside(ShapeDifference{*own.shape, *other.shape});
+  if (box && other_box) return visit(point, other.placed(Convex(difference_of(*box, *other_box))));
+  return visit(point, other.placed(ShapeDifference{*own.shape, *other.shape}));
 }
 
 /// Calls visit(bound, partner), where `partner` is another bound, a shape (visit_partner()), a difference of
-/// shapes or a RigidPair. Precondition: not both are shapes at rest.
+/// shapes or a RigidPair, valid during the call. Precondition: not both are shapes at rest.
 template <class Visit>
 auto visit_shapes(const CollisionShape& a, const CollisionShape& b, Visit visit) {
   if (a.rigid || b.rigid) return visit_rigid(a, b, visit);

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <type_traits>
 
-#include "bound/beside_solid.hpp"
-#include "bound/reach.hpp"
+#include "bound/convex.hpp"
+#include "bound/placed.hpp"
 #include "bound/rigid_extent.hpp"
 #include "bound/rigid_part.hpp"
 #include "number/infinity.hpp"
@@ -90,9 +90,9 @@ inline MotionAlong motion_along(const Vec3& direction, const Bound& own, const R
                                 double time) {
   return {{own, AllTurns(other).hindmost(-direction), time}, {direction, 0.0}};
 }
-template <class Shape>
-MotionAlong motion_along(const Vec3& direction, const Bound& own, const Shape& shape, double time) {
-  return {beside(own, shape, time), supporting_plane(solid_of(shape), direction)};
+template <class Solid>
+MotionAlong motion_along(const Vec3& direction, const Bound& own, const Placed<Solid>& shape, double time) {
+  return {shape.beside(own, time), supporting_plane(shape.solid, direction)};
 }
 inline MotionAlong motion_along(const Vec3&, const Bound& own, const HalfSpace& wall, double) {
   return {BoundBesideBound(own), wall};
@@ -124,10 +124,10 @@ template <class Visit>
 void for_each_way(const RigidPair<HalfSpace>& pair, double, Visit visit) {
   visit(pair.other.normal);
 }
-template <class Shape, class Visit>
-void for_each_way(const RigidPair<Shape>& pair, double time, Visit visit) {
-  const Vec3 from = pair.body.bound.centre_at(time) - bound_of_point(pair.other, {}, time).centre_at(time);
-  for_each_way(nearest_point(solid_of(pair.other), from).normal, AllTurns(pair.body).axis(), visit);
+template <class Solid, class Visit>
+void for_each_way(const RigidPair<Placed<Solid>>& pair, double time, Visit visit) {
+  const Vec3 from = pair.body.bound.centre_at(time) - pair.other.origin(time);
+  for_each_way(nearest_point(pair.other.solid, from).normal, AllTurns(pair.body).axis(), visit);
 }
 
 /// Like earliest_meeting(), of two in all their turns. Hulls do not know how deep they overlap, so it is at

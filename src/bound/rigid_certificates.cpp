@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bound/all_turns.hpp"
-#include "bound/beside_solid.hpp"
+#include "bound/convex.hpp"
 #include "bound/hull_distance.hpp"
 #include "bound/mesh_tree.hpp"
 #include "bound/part_pairs.hpp"
@@ -311,29 +311,27 @@ GapLimits gap(const PartBound& a, const HalfSpace& wall, double t) {
   return limits;
 }
 
-// A part and a box or a triangle, at rest or carried.
+// A part and a convex solid.
 
 /// A hull and a solid at a time: nearest points and the direction between them.
-template <class Shape>
 struct HullBesideSolid {
   const PartBound& part;
-  const Shape& shape;
+  const Placed<Convex>& shape;
   double time;
   Corners corners;
   NearestInHulls nearest;
 
-  HullBesideSolid(const PartBound& given, const Shape& partner, double at)
+  HullBesideSolid(const PartBound& given, const Placed<Convex>& partner, double at)
       : part(given), shape(partner), time(at) {
-    const auto points = part.points(time, bound_of_point(shape, {}, time).centre_at(time));
-    corners = corners_near(points, solid_of(shape));
+    const auto points = part.points(time, shape.origin(time));
+    corners = corners_near(points, shape.solid);
     nearest = nearest_in_hulls(points, corners.all());
   }
   Witness witness() const {
     Witness found(time);
     for (std::size_t k = 0; k < nearest.count; ++k) {
       const auto& [first, second, weight] = nearest.pairs[k];
-      found.add(part.point(first), bound_of_point(shape, corners.all()[second], time), radius_of(shape),
-                weight);
+      found.add(part.point(first), shape.of_point(corners.all()[second], time), shape.radius, weight);
     }
     return found;
   }
@@ -345,34 +343,31 @@ struct AxisBesideSolid {
   Vec3 normal;
   bool crosses;  ///< true if the axis has a part in the solid, however deep
 
-  template <class Shape>
-  AxisBesideSolid(const PartBound& part, const Shape& shape, double time) {
-    const auto& solid = solid_of(shape);
-    const LineSegment axis = part.axis(time, bound_of_point(shape, {}, time).centre_at(time));
-    const NearestOnSegment at = nearest_on_segment(axis, solid);
+  AxisBesideSolid(const PartBound& part, const Placed<Convex>& shape, double time) {
+    const LineSegment axis = part.axis(time, shape.origin(time));
+    const NearestOnSegment at = nearest_on_segment(axis, shape.solid);
     nearest = on_axis(part, at.position);
-    normal = nearest_point(solid, axis.at(at.position)).normal;
+    normal = nearest_point(shape.solid, axis.at(at.position)).normal;
     crosses = at.crosses;
   }
 };
 
 /// Returns the time before which no points of a part come within `distance` of a plane that has the solid on
 /// its far side.
-template <class Shape>
-double meeting_along(const PartBound& part, const Vec3& normal, const Shape& shape, double time, double until,
-                     double distance) {
-  const HalfSpace plane = supporting_plane(solid_of(shape), normal);
+double meeting_along(const PartBound& part, const Vec3& normal, const Placed<Convex>& shape, double time,
+                     double until, double distance) {
+  const HalfSpace plane = supporting_plane(shape.solid, normal);
   double first = infinity;
   part.for_each_point([&](const Bound& point) {
-    const BoundBesideBound motion = beside(point, shape, time);
+    const BoundBesideBound motion = shape.beside(point, time);
     first = std::min(first, earliest_meeting(motion.bound, plane, time, until, distance + motion.slack));
   });
   return first;
 }
 
 /// Parts do not know how deep their axes or hulls reach into a solid: see meeting_of_hulls().
-template <class Shape>
-double meeting(const PartBound& part, const Shape& shape, double from, double until, double distance) {
+double meeting(const PartBound& part, const Placed<Convex>& shape, double from, double until,
+               double distance) {
   if (part.is_ball()) return earliest_meeting(part.ball(), shape, from, until, distance);
   const double deepest = -part.part().radius;
   return repeated(from, [&](double time) {
@@ -391,8 +386,8 @@ double meeting(const PartBound& part, const Shape& shape, double from, double un
 
 /// A point that is fixed in an axis may leave at once a solid that the axis goes on to cross; witnesses slide
 /// along the axis.
-template <class Shape>
-double separation(const PartBound& part, const Shape& shape, double from, double until, double distance) {
+double separation(const PartBound& part, const Placed<Convex>& shape, double from, double until,
+                  double distance) {
   if (part.is_ball()) return earliest_separation(part.ball(), shape, from, until, distance);
   return repeated(from, [&](double time) {
     const auto of_witness = [&] {
@@ -405,14 +400,13 @@ double separation(const PartBound& part, const Shape& shape, double from, double
   });
 }
 
-template <class Shape>
-GapLimits gap(const PartBound& part, const Shape& shape, double t) {
+GapLimits gap(const PartBound& part, const Placed<Convex>& shape, double t) {
   if (part.is_ball()) return gap_limits(part.ball(), shape, t);
   const auto least = [&](const Vec3& normal) {
-    const HalfSpace plane = supporting_plane(solid_of(shape), normal);
+    const HalfSpace plane = supporting_plane(shape.solid, normal);
     double lower = infinity;
     part.for_each_point([&](const Bound& point) {
-      const BoundBesideBound motion = beside(point, shape, t);
+      const BoundBesideBound motion = shape.beside(point, t);
       lower = std::min(lower, gap_limits(motion.bound, plane, t).lower - motion.slack);
     });
     return lower;
@@ -428,67 +422,60 @@ GapLimits gap(const PartBound& part, const Shape& shape, double t) {
   return limits;
 }
 
-// A part and a mesh, at rest or carried: its triangles, but those whose boxes the ball around the part does
-// not reach.
+// A part and a mesh: its triangles, but those whose boxes the ball around the part does not reach.
 
-template <class Shape>
-requires is_mesh<Shape>
-double meeting(const PartBound& part, const Shape& mesh, double from, double until, double distance) {
+double meeting(const PartBound& part, const Placed<Mesh>& mesh, double from, double until, double distance) {
   if (part.is_ball()) return earliest_meeting(part.ball(), mesh, from, until, distance);
   const Bound around = part.around();
   // A hull meets at smaller distances when it begins to overlap.
   const double reached = std::max(distance, -part.part().radius);
   double first = infinity;
   const auto limit = [&] { return std::min(first, until); };
-  tree_of(solid_of(mesh))
+  tree_of(mesh.solid)
       .search(
-          [&](const Box& box) {
-            return earliest_meeting(around, placed_like(mesh, box), from, limit(), reached);
-          },
+          [&](const Box& box) { return earliest_meeting(around, mesh.with(box), from, limit(), reached); },
           limit,
-          [&](std::uint32_t, const Triangle& triangle) {
-            first = std::min(first, meeting(part, placed_like(mesh, triangle), from, limit(), distance));
+          [&](std::uint32_t, const Convex& triangle) {
+            first = std::min(first, meeting(part, mesh.with(triangle), from, limit(), distance));
             return first > from;
           });
   return first;
 }
 
 /// Calls visit(gap, triangle) for triangles that may be the nearest, with limits of their gaps.
-template <class Shape, class Visit>
-void for_each_near_triangle(const PartBound& part, const Shape& mesh, double t, Visit visit) {
+template <class Visit>
+void for_each_near_triangle(const PartBound& part, const Placed<Mesh>& mesh, double t, Visit visit) {
   const Bound around = part.around();
   double least = infinity;
-  tree_of(solid_of(mesh))
-      .search([&](const Box& box) { return gap_limits(around, placed_like(mesh, box), t).lower; },
+  tree_of(mesh.solid)
+      .search([&](const Box& box) { return gap_limits(around, mesh.with(box), t).lower; },
               [&] { return least; },
-              [&](std::uint32_t, const Triangle& triangle) {
-                const GapLimits own = gap(part, placed_like(mesh, triangle), t);
+              [&](std::uint32_t, const Convex& triangle) {
+                const GapLimits own = gap(part, mesh.with(triangle), t);
                 least = std::min(least, own.upper);
                 visit(own, triangle);
                 return true;
               });
 }
 
-template <class Shape>
-requires is_mesh<Shape>
-double separation(const PartBound& part, const Shape& mesh, double from, double until, double distance) {
+double separation(const PartBound& part, const Placed<Mesh>& mesh, double from, double until,
+                  double distance) {
   if (part.is_ball()) return earliest_separation(part.ball(), mesh, from, until, distance);
   return repeated(from, [&](double time) {
-    Triangle nearest = solid_of(mesh).triangle(0);
+    Convex nearest = mesh.solid.triangle(0);
     double least = infinity;
-    for_each_near_triangle(part, mesh, time, [&](const GapLimits& own, const Triangle& triangle) {
+    for_each_near_triangle(part, mesh, time, [&](const GapLimits& own, const Convex& triangle) {
       if (own.upper < least) nearest = triangle;
       least = std::min(least, own.upper);
     });
-    return separation(part, placed_like(mesh, nearest), time, until, distance);
+    return separation(part, mesh.with(nearest), time, until, distance);
   });
 }
 
-template <class Shape>
-requires is_mesh<Shape> GapLimits gap(const PartBound& part, const Shape& mesh, double t) {
+GapLimits gap(const PartBound& part, const Placed<Mesh>& mesh, double t) {
   if (part.is_ball()) return gap_limits(part.ball(), mesh, t);
   GapLimits limits{infinity, infinity};
-  for_each_near_triangle(part, mesh, t, [&](const GapLimits& own, const Triangle&) {
+  for_each_near_triangle(part, mesh, t, [&](const GapLimits& own, const Convex&) {
     limits = {std::min(limits.lower, own.lower), std::min(limits.upper, own.upper)};
   });
   return limits;
@@ -718,35 +705,28 @@ double sinking_of(const PartBound& part, const HalfSpace& wall, double from, dou
   return first;
 }
 
-template <class Shape>
-double sinking_of(const PartBound& part, const Shape& shape, double from, double until,
+double sinking_of(const PartBound& part, const Placed<Convex>& shape, double from, double until,
                   const Sinking& sinking) {
   const HullBesideSolid now(part, shape, from);
   return sinking_of(now.nearest, point_count(part.part()), now.corners.all().size(), -part.part().radius,
                     from, until, sinking, [&](std::size_t k, std::size_t j) {
-                      return BoundBesideBound(part.point(k),
-                                              bound_of_point(shape, now.corners.all()[j], from), from,
-                                              radius_of(shape));
+                      return BoundBesideBound(part.point(k), shape.of_point(now.corners.all()[j], from), from,
+                                              shape.radius);
                     });
 }
 
-template <class Shape>
-requires is_mesh<Shape>
-double sinking_of(const PartBound& part, const Shape& mesh, double from, double until,
+double sinking_of(const PartBound& part, const Placed<Mesh>& mesh, double from, double until,
                   const Sinking& sinking) {
   const Bound around = part.around();
   const double outer = std::max({sinking.approaching, sinking.receding, -part.part().radius});
   double first = until;
-  tree_of(solid_of(mesh))
-      .search(
-          [&](const Box& box) {
-            return earliest_meeting(around, placed_like(mesh, box), from, first, outer);
-          },
-          [&] { return first; },
-          [&](std::uint32_t, const Triangle& triangle) {
-            first = std::min(first, sinking_of(part, placed_like(mesh, triangle), from, first, sinking));
-            return first > from;
-          });
+  tree_of(mesh.solid)
+      .search([&](const Box& box) { return earliest_meeting(around, mesh.with(box), from, first, outer); },
+              [&] { return first; },
+              [&](std::uint32_t, const Convex& triangle) {
+                first = std::min(first, sinking_of(part, mesh.with(triangle), from, first, sinking));
+                return first > from;
+              });
   return first;
 }
 
@@ -820,12 +800,8 @@ bool is_beyond(const RigidPair<Other>& pair, double t, double distance) {
   template bool is_beyond(const RigidPair<Other>&, double, double);
 KINESPHERE_RIGID_PAIR(RigidExtent)
 KINESPHERE_RIGID_PAIR(HalfSpace)
-KINESPHERE_RIGID_PAIR(Box)
-KINESPHERE_RIGID_PAIR(Triangle)
-KINESPHERE_RIGID_PAIR(Mesh)
-KINESPHERE_RIGID_PAIR(CarriedShape<Box>)
-KINESPHERE_RIGID_PAIR(CarriedShape<Triangle>)
-KINESPHERE_RIGID_PAIR(CarriedShape<Mesh>)
+KINESPHERE_RIGID_PAIR(Placed<Convex>)
+KINESPHERE_RIGID_PAIR(Placed<Mesh>)
 #undef KINESPHERE_RIGID_PAIR
 
 }  // namespace kinesphere

@@ -7,7 +7,8 @@
 // fixed in each.
 #pragma once
 
-#include "bound/carried_shape.hpp"
+#include "bound/convex.hpp"
+#include "bound/placed.hpp"
 #include "bound/rigid_extent.hpp"
 
 namespace kinesphere {

@@ -62,7 +62,7 @@ struct RigidExtent {
   }
 };
 
-/// A rigid body and its partner: a RigidExtent, a shape at rest, or a CarriedShape.
+/// A rigid body and its partner: a RigidExtent, a HalfSpace, or a Placed solid.
 template <class Other>
 struct RigidPair {
   RigidExtent body;
@@ -72,8 +72,10 @@ struct RigidPair {
   bool is_exact() const {
     if constexpr (requires { other.is_exact(); })
       return body.is_exact() && other.is_exact();
+    else if constexpr (requires { other.carrier; })
+      return body.is_exact() && !other.carrier;
     else
-      return body.is_exact() && !requires { other.carrier; };
+      return body.is_exact();
   }
   /// Returns an upper limit of the speed (length / time) at which any two points, one fixed in each of the
   /// two, move relative to each other at `time`, but for the errors of the reports.
@@ -82,7 +84,7 @@ struct RigidPair {
     if constexpr (requires { other.turning_speed(); })
       return norm(velocity - other.bound.velocity_at(time)) + body.turning_speed() + other.turning_speed();
     else if constexpr (requires { other.carrier; })
-      return norm(velocity - other.carrier.velocity_at(time)) + body.turning_speed();
+      return norm(velocity - other.velocity(time)) + body.turning_speed();
     else
       return norm(velocity) + body.turning_speed();
   }

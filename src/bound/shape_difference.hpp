@@ -9,7 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include "bound/beside_solid.hpp"
 #include "bound/hull_distance.hpp"
 #include "kinesphere/shape.hpp"
 
@@ -75,11 +74,6 @@ struct ShapeDifference {
   const Shape& own;    ///< the origin of which is the place of the point
   const Shape& other;  ///< at rest
 };
-
-template <>
-inline constexpr bool has_pieces<ShapeDifference> = true;
-template <>
-inline constexpr bool has_pieces<CarriedShape<ShapeDifference>> = true;
 
 double earliest_meeting(const Bound& bound, const ShapeDifference& shape, double from, double until,
                         double distance = 0.0);

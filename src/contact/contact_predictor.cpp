@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "bound/beside_solid.hpp"
 #include "bound/mesh_tree.hpp"
 #include "bound/rigid_part.hpp"
 #include "bound/shape_difference.hpp"
@@ -21,7 +20,11 @@ constexpr bool is_rigid_pair = false;
 template <class Other>
 constexpr bool is_rigid_pair<RigidPair<Other>> = true;
 
-/// Of the triangles of a mesh, others than the nearest may be approached, as of the points of rigid bodies.
+/// True for solids of several pieces.
+template <class Partner>
+constexpr bool has_pieces =
+    std::is_same_v<Partner, Placed<Mesh>> || std::is_same_v<Partner, Placed<ShapeDifference>>;
+/// Of several pieces, others than the nearest may be approached, as of the points of rigid bodies.
 template <class Partner>
 constexpr bool has_several_points = is_rigid_pair<Partner> || has_pieces<Partner>;
 
@@ -94,7 +97,7 @@ double ContactPredictor<Partner>::largest_speed(const RelativeLimits& limits) co
   if constexpr (is_rigid_pair<Partner>)
     return partner_.relative_speed(now_) + limits.speed_error + limits.radius_rates;
   else if constexpr (has_pieces<Partner>)
-    return norm(beside(bound_, partner_, now_).bound.velocity_at(now_)) + limits.speed_error +
+    return norm(partner_.beside(bound_, now_).bound.velocity_at(now_)) + limits.speed_error +
            limits.radius_rates;
   else
     return infinity;
@@ -132,12 +135,12 @@ double ContactPredictor<Partner>::earliest_sinking_below(const Sinking& sinking,
     const auto pair = excess_growth_ == 0.0 ? partner_ : partner_.with_less_growth(true_excess(), now_);
     return earliest_sinking(pair, now_, until, sinking);
   } else if constexpr (has_pieces<Partner>) {
-    auto [bound, slack] = beside(bound_, partner_, now_);
+    auto [bound, slack] = partner_.beside(bound_, now_);
     if (excess_growth_ != 0.0) {
       bound.growth_speed -= true_excess();
       bound.time = now_;
     }
-    return earliest_sinking(bound, solid_of(partner_), now_, until,
+    return earliest_sinking(bound, partner_.solid, now_, until,
                             {sinking.approaching + slack, sinking.receding + slack, sinking.speed});
   } else {
     return infinity;
@@ -270,22 +273,13 @@ double ContactPredictor<Partner>::resolution() const {
 
 template class ContactPredictor<Bound>;
 template class ContactPredictor<HalfSpace>;
-template class ContactPredictor<Box>;
-template class ContactPredictor<Triangle>;
-template class ContactPredictor<Mesh>;
-template class ContactPredictor<CarriedShape<Box>>;
-template class ContactPredictor<CarriedShape<Triangle>>;
-template class ContactPredictor<CarriedShape<Mesh>>;
-template class ContactPredictor<ShapeDifference>;
-template class ContactPredictor<CarriedShape<ShapeDifference>>;
+template class ContactPredictor<Placed<Convex>>;
+template class ContactPredictor<Placed<Mesh>>;
+template class ContactPredictor<Placed<ShapeDifference>>;
 template class ContactPredictor<RigidPair<RigidExtent>>;
 template class ContactPredictor<RigidPair<HalfSpace>>;
-template class ContactPredictor<RigidPair<Box>>;
-template class ContactPredictor<RigidPair<Triangle>>;
-template class ContactPredictor<RigidPair<Mesh>>;
-template class ContactPredictor<RigidPair<CarriedShape<Box>>>;
-template class ContactPredictor<RigidPair<CarriedShape<Triangle>>>;
-template class ContactPredictor<RigidPair<CarriedShape<Mesh>>>;
+template class ContactPredictor<RigidPair<Placed<Convex>>>;
+template class ContactPredictor<RigidPair<Placed<Mesh>>>;
 
 namespace {
 

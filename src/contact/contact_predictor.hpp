@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "bound/carried_shape.hpp"
 #include "bound/rigid_certificates.hpp"
 #include "contact/contact_rule.hpp"
 #include "kinesphere/bound.hpp"
@@ -52,8 +51,8 @@ struct ContactDecision {
 EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall);
 
 /// Predicts one threshold between a body and a partner from `now` on. A partner is another body's Bound, the
-/// HalfSpace inside a wall, a shape at rest, a CarriedShape, a ShapeDifference, or the RigidPair of the two.
-/// Holds references to rule, bound and partner.
+/// HalfSpace inside a wall or of a static body, a Placed solid, or the RigidPair of the two. Holds references
+/// to rule, bound and partner.
 template <class Partner>
 class ContactPredictor {
  public:

@@ -17,20 +17,23 @@ namespace {
 struct Kind {
   std::string operator()(const Bound& seen, const Bound&) const { return name("bound", seen); }
   std::string operator()(const Bound& seen, const HalfSpace&) const { return name("half-space", seen); }
-  std::string operator()(const Bound& seen, const Box&) const { return name("box", seen); }
-  std::string operator()(const Bound& seen, const Triangle&) const { return name("triangle", seen); }
-  std::string operator()(const Bound& seen, const Mesh&) const { return name("mesh", seen); }
-  std::string operator()(const Bound& seen, const ShapeDifference&) const { return name("difference", seen); }
   template <class Solid>
-  std::string operator()(const Bound& seen, const CarriedShape<Solid>&) const {
-    return name("carried", seen);
+  std::string operator()(const Bound& seen, const Placed<Solid>& placed) const {
+    return name(kind_of(placed), seen);
   }
   template <class Other>
   std::string operator()(const Bound& seen, const RigidPair<Other>& pair) const {
     std::string partner = "solid";
     if constexpr (std::is_same_v<Other, RigidExtent>) partner = std::to_string(pair.other.parts.size());
-    if constexpr (requires { pair.other.carrier; }) partner = "carried";
+    if constexpr (requires { pair.other.carrier; }) partner = kind_of(pair.other);
     return name("rigid with " + partner, seen);
+  }
+  template <class Solid>
+  static std::string kind_of(const Placed<Solid>& placed) {
+    const char* const kind = std::is_same_v<Solid, Convex> ? "convex"
+                             : std::is_same_v<Solid, Mesh> ? "mesh"
+                                                           : "difference";
+    return (placed.carrier ? "carried " : "") + std::string(kind);
   }
   std::string name(const std::string& kind, const Bound& seen) const {
     return (&seen == first ? "" : "second to ") + kind;
@@ -51,23 +54,23 @@ TEST(CollisionShape, DecidesWhatCertificatesSee) {
     return visit_shapes(a, b, Kind{&a.bound});
   };
   EXPECT_EQ(kind(plain, plain_too), "bound");
-  EXPECT_EQ(kind(plain, collision_shape_of(other, box)), "box");
-  EXPECT_EQ(kind(collision_shape_of(one, box), plain_too), "second to box");
+  EXPECT_EQ(kind(plain, collision_shape_of(other, box)), "convex");
+  EXPECT_EQ(kind(collision_shape_of(one, box), plain_too), "second to convex");
   EXPECT_EQ(kind(plain, collision_shape_of(other, floor)), "half-space");
-  EXPECT_EQ(kind(plain, collision_shape_of(other, triangle)), "triangle");
+  EXPECT_EQ(kind(plain, collision_shape_of(other, triangle)), "convex");
   const std::array vertices{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
   const std::array<std::array<std::uint32_t, 3>, 1> corners{{{0, 1, 2}}};
   const Shape mesh = Mesh::create(vertices, corners).value();
   EXPECT_EQ(kind(plain, collision_shape_of(other, mesh)), "mesh");
-  EXPECT_EQ(kind(plain, carried_shape_of(other, mesh, 2.0)), "carried");
+  EXPECT_EQ(kind(plain, carried_shape_of(other, mesh, 2.0)), "carried mesh");
   EXPECT_EQ(kind(plain, collision_shape_of(other, ball)), "bound") << "a ball at rest";
-  EXPECT_EQ(kind(plain, carried_shape_of(other, box, 2.0)), "carried");
+  EXPECT_EQ(kind(plain, carried_shape_of(other, box, 2.0)), "carried convex");
   EXPECT_EQ(kind(rigid, rigid_too), "rigid with 2");
   EXPECT_EQ(kind(rigid, plain_too), "rigid with 1") << "a ball is a body of one part";
   EXPECT_EQ(kind(plain, rigid_too), "second to rigid with 1");
   EXPECT_EQ(kind(rigid, collision_shape_of(other, floor)), "rigid with solid");
-  EXPECT_EQ(kind(collision_shape_of(one, triangle), rigid_too), "second to rigid with solid");
-  EXPECT_EQ(kind(rigid, carried_shape_of(other, box, 2.0)), "rigid with carried");
+  EXPECT_EQ(kind(collision_shape_of(one, triangle), rigid_too), "second to rigid with convex");
+  EXPECT_EQ(kind(rigid, carried_shape_of(other, box, 2.0)), "rigid with carried convex");
 }
 
 /// Of two shapes, one of which is carried, certificates see a point with the motion of the carried one, and
@@ -87,12 +90,12 @@ TEST(CollisionShape, OfTwoShapesIsTheirDifference) {
     });
     return seen;
   };
-  EXPECT_EQ(kind(carried, collision_shape_of(other, box)), "box");
-  EXPECT_EQ(kind(collision_shape_of(other, box), carried), "box");
+  EXPECT_EQ(kind(carried, collision_shape_of(other, box)), "convex");
+  EXPECT_EQ(kind(collision_shape_of(other, box), carried), "convex");
   EXPECT_EQ(kind(carried, collision_shape_of(other, floor)), "half-space");
   EXPECT_EQ(kind(carried, collision_shape_of(other, triangle)), "difference");
-  EXPECT_EQ(kind(carried, carried_shape_of(other, box, 2.0)), "carried");
-  EXPECT_EQ(kind(carried, carried_shape_of(other, triangle, 1.0)), "carried");
+  EXPECT_EQ(kind(carried, carried_shape_of(other, box, 2.0)), "carried convex");
+  EXPECT_EQ(kind(carried, carried_shape_of(other, triangle, 1.0)), "carried difference");
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ struct Spinner {
   double meets(const Other& other, double until = 10.0) const {
     return earliest_meeting(extent.bound, RigidPair<Other>{extent, other}, 0.0, until);
   }
+  double meets(const Convex& solid) const { return meets(Placed<Convex>{solid}); }
   template <class Other>
   double parts_from(const Other& other, double until = 10.0) const {
     return earliest_separation(extent.bound, RigidPair<Other>{extent, other}, 0.0, until, 0.01);
@@ -51,8 +52,8 @@ TEST(AllTurns, KeepBodiesApartForEver) {
   EXPECT_EQ(fan.meets(Spinner(ball, 0.0, {0, 0.9, 0.3}).extent), infinity);
   EXPECT_EQ(fan.meets(Spinner(rod, -1e8, {0, 0.9, 0.3}).extent), infinity);
   EXPECT_EQ(fan.meets(HalfSpace{{0, 0, 1}, -0.2}), infinity);
-  EXPECT_EQ(fan.meets(Box{{-1, -1, 0.2}, {1, 1, 0.4}}), infinity);
-  EXPECT_EQ(fan.meets(Triangle{{-1, -1, 0.2}, {1, -1, 0.2}, {0, 1, 0.2}}), infinity);
+  EXPECT_EQ(fan.meets(Convex(Box{{-1, -1, 0.2}, {1, 1, 0.4}})), infinity);
+  EXPECT_EQ(fan.meets(Convex(Triangle{{-1, -1, 0.2}, {1, -1, 0.2}, {0, 1, 0.2}})), infinity);
   // A bullet passes by another one.
   Spinner bullet(top, 1e6, {0.3, 0, -5});
   bullet.extent.bound.velocity = {0, 0, 1};
@@ -72,7 +73,8 @@ TEST(AllTurns, AreMetByWhatComesIntoThem) {
 TEST(AllTurns, StayInTouch) {
   const Spinner spins(top);
   EXPECT_EQ(spins.parts_from(HalfSpace{{0, 0, 1}, -1.1}), infinity);
-  EXPECT_EQ(spins.parts_from(Box{{-1, -1, -2}, {1, 1, -1.1}}), infinity);
+  const Convex floor = Box{{-1, -1, -2}, {1, 1, -1.1}};
+  EXPECT_EQ(spins.parts_from(Placed<Convex>{floor}), infinity);
   EXPECT_EQ(Spinner(rod).parts_from(Spinner(ball, 0.0, {0, 0.15, 0}).extent), infinity);
   EXPECT_LT(Spinner(rod).parts_from(Spinner(ball, 0.0, {0.5, 0.1, 0}).extent), 1e-7);
 }

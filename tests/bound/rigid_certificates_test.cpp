@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "bound/carried_shape.hpp"
+#include "bound/convex.hpp"
+#include "bound/placed.hpp"
 #include "bound/rigid_thing.hpp"
 #include "number/infinity.hpp"
 
@@ -97,22 +98,23 @@ TEST_F(RigidCertificates, HoldForTwoBodies) {
 
 TEST_F(RigidCertificates, HoldBesideShapesAtRest) {
   for_each_thing(1, [](const Thing& thing, auto pose, Random& random) {
-    const auto check = [&]<class Solid>(const Solid& solid) {
+    const auto check = [&]<class Other>(const Other& other, auto gap_to) {
       expect_certain(
-          RigidPair<Solid>{thing.extent, solid},
-          [&](double time) {
-            if constexpr (std::is_same_v<Solid, Mesh>)
-              return gap_by_brute_force(pose(time), solid);
-            else
-              return nearest_parts(pose(time), solid).gap;
-          },
-          random);
+          RigidPair<Other>{thing.extent, other}, [&](double time) { return gap_to(pose(time)); }, random);
     };
-    check(HalfSpace{random.unit_vector(), random.uniform(-3.0, -1.0)});
+    const auto beside = [&](const auto& solid) {
+      return [&](const RigidPose& seen) { return nearest_parts(seen, solid).gap; };
+    };
+    const HalfSpace wall{random.unit_vector(), random.uniform(-3.0, -1.0)};
+    check(wall, beside(wall));
     const Vec3 corner = 3.0 * random.point_in_ball();
-    check(Box{corner, corner + Vec3{random.uniform(), random.uniform(), random.uniform()}});
-    check(Triangle{corner, corner + random.unit_vector(), corner + random.unit_vector()});
-    check(any_mesh(random, 3.0));
+    const Box box{corner, corner + Vec3{random.uniform(), random.uniform(), random.uniform()}};
+    const Triangle triangle{corner, corner + random.unit_vector(), corner + random.unit_vector()};
+    const Convex convex_box = box, convex_triangle = triangle;
+    check(Placed<Convex>{convex_box}, beside(box));
+    check(Placed<Convex>{convex_triangle}, beside(triangle));
+    const Mesh mesh = any_mesh(random, 3.0);
+    check(Placed<Mesh>{mesh}, [&](const RigidPose& seen) { return gap_by_brute_force(seen, mesh); });
   });
 }
 
@@ -132,7 +134,7 @@ void expect_certain_beside_carried(const Solid& solid, double radius, const Thin
     seen.position -= carrier.centre_at(time) + push * (0.5 * carrier.acceleration_limit * s * s);
     return gap_to(seen);
   };
-  expect_certain(RigidPair<CarriedShape<Solid>>{thing.extent, {solid, carrier, radius}}, gap, random);
+  expect_certain(RigidPair<Placed<Solid>>{thing.extent, {solid, &carrier, radius}}, gap, random);
 }
 
 TEST_F(RigidCertificates, HoldBesideCarriedShapes) {
@@ -140,7 +142,7 @@ TEST_F(RigidCertificates, HoldBesideCarriedShapes) {
     const Vec3 lower = -0.2 * random.unit_vector();
     const Box box{{-std::abs(lower.x), -std::abs(lower.y), -std::abs(lower.z)}, {0.3, 0.2, 0.1}};
     const double radius = std::max(norm(box.lower), norm(box.upper)) * (1.0 + 1e-9);
-    expect_certain_beside_carried(box, radius, thing, pose, random,
+    expect_certain_beside_carried(Convex(box), radius, thing, pose, random,
                                   [&](const RigidPose& seen) { return nearest_parts(seen, box).gap; });
   });
 }
@@ -157,10 +159,11 @@ TEST_F(RigidCertificates, HoldBesideCarriedMeshes) {
 TEST_F(RigidCertificates, OfAMeshAreAsLateAsThoseOfItsTriangles) {
   for_each_thing(4, [](const Thing& thing, auto, Random& random) {
     const Mesh mesh = any_mesh(random, 3.0);
-    const RigidPair<Mesh> pair{thing.extent, mesh};
+    const RigidPair<Placed<Mesh>> pair{thing.extent, {mesh}};
     double meets = infinity, parts = now;
     for (std::size_t k = 0; k < mesh.size(); ++k) {
-      const RigidPair<Triangle> alone{thing.extent, mesh.triangle(k)};
+      const Convex triangle = mesh.triangle(k);
+      const RigidPair<Placed<Convex>> alone{thing.extent, {triangle}};
       meets = std::min(meets, earliest_meeting(thing.extent.bound, alone, now, until, 0.01));
       parts = std::max(parts, earliest_separation(thing.extent.bound, alone, now, until, 2.0));
     }

@@ -1,15 +1,15 @@
-// Certificates of bounds and shapes that others carry, against bodies that move as their limits allow.
-#include "bound/carried_shape.hpp"
+// Certificates of bounds and solids that others carry, against bodies that move as their limits allow.
+#include "bound/placed.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bound/relative_motion.hpp"
+#include "bound/convex.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/shape.hpp"
 
-namespace kinesphere::carried_shape_test {
+namespace kinesphere::placed_test {
 namespace {
 
 constexpr std::uint64_t seed = 4106;
@@ -37,7 +37,7 @@ void expect_certain(const Solid& solid, double shape_radius, Random& random) {
   const Bound carrier = random_bound(random, shape_radius);
   const Vec3 push = random.point_in_ball();
   const Vec3 other_push = random.point_in_ball();
-  const CarriedShape<Solid> shape{solid, carrier, shape_radius};
+  const Placed<Solid> shape{solid, &carrier, shape_radius};
   const auto true_gap = [&](double time) {
     const Vec3 seen = place_of(ball, push, time) - place_of(carrier, other_push, time);
     return nearest_point(solid, seen).distance - radius;
@@ -60,25 +60,26 @@ void expect_certain(const Solid& solid, double shape_radius, Random& random) {
   }
 }
 
-TEST(CarriedShape, IsCertainWhereverTheTwoAre) {
+TEST(Placed, IsCertainWhereverTheTwoAre) {
   SCOPED_TRACE(seed);
   for (std::uint64_t k = 0; k < 1500 && !testing::Test::HasFailure(); ++k) {
     SCOPED_TRACE(k);
     Random random = Random::at(seed, 0, k);
     const Vec3 half{random.uniform(), random.uniform(), random.uniform()};
-    expect_certain(Box{-half, half}, norm(half), random);
-    expect_certain(Triangle{random.unit_vector(), random.unit_vector(), random.unit_vector()}, 1.0, random);
+    expect_certain(Convex(Box{-half, half}), norm(half), random);
+    expect_certain(Convex(Triangle{random.unit_vector(), random.unit_vector(), random.unit_vector()}), 1.0,
+                   random);
   }
 }
 
-TEST(CarriedShape, OfABodyAtRestIsAShapeAtRest) {
+TEST(Placed, OnABodyAtRestIsAtRest) {
   const Box box{{-1, -1, -1}, {1, 1, 1}};
   const Bound carrier{.position = {5, 0, 0}, .radius = std::sqrt(3.0)};
   const Bound falling{.position = {0, 0, 0}, .velocity = {1, 0, 0}, .radius = 0.5};
-  const CarriedShape<Box> shape{box, carrier, carrier.radius};
+  const Placed<Box> shape{box, &carrier, carrier.radius};
   EXPECT_NEAR(earliest_meeting(falling, shape, 0.0, 10.0), 3.5, 1e-9);
   EXPECT_NEAR(gap_limits(falling, shape, 1.0).lower, 2.5, 1e-9);
 }
 
 }  // namespace
-}  // namespace kinesphere::carried_shape_test
+}  // namespace kinesphere::placed_test
