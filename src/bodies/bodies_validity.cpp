@@ -172,8 +172,11 @@ bool Bodies::radius_is_valid(std::uint32_t number, double now) const {
   BodyDefinition grown = definition_of(number);
   grown.radius = changing->radius;
   grown.velocity_error = changing->velocity_error;
-  return check_radius(grown, no_body, definition_, "restore") &&
-         check_limits(grown, no_body, definition_, "restore") &&
+  // It may have grown too large for the box since the last report, as the next report will tell.
+  WorldDefinition unbounded = definition_;
+  unbounded.box.reset();
+  return check_radius(grown, no_body, unbounded, "restore") &&
+         check_limits(grown, no_body, unbounded, "restore") &&
          check_radius_rate(changing->rate, no_body, "restore") && !body.is_shaped() &&
          !(body.is_sleeping() && changing->rate != 0.0) && changing->time >= -limits::largest_time &&
          changing->time <= now;

@@ -189,8 +189,9 @@ void Player::check_gap_before_change(const Event& event, const Contact& contact)
       return id.index < truth_.things.size() && truth_.at(id).id == id;
     };
     if (!is_there(contact.first) || (contact.second != no_body && !is_there(contact.second))) return;
-    const Real gap = truth_.told_gap(contact, now());
-    if (std::abs(gap - event.gap) < std::abs(nearest - event.gap)) nearest = gap;
+    // Some hulls do not know how deep they overlap.
+    for (const Real gap : {truth_.told_gap(contact, now()), truth_.gap(contact, now())})
+      if (std::abs(gap - event.gap) < std::abs(nearest - event.gap)) nearest = gap;
   };
   look();
   for (std::vector<Thing>& before : befores_) {

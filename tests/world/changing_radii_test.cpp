@@ -510,6 +510,10 @@ TEST(ChangingRadii, EndWhereSpaceIsFull) {
   expect_error(refused, ErrorCode::out_of_range, "radius", "advance", ball);
   EXPECT_LE(p.world.time(), 8.0) << "it has 3/8 of the box at 5 and may not reach half of it";
   EXPECT_TRUE(is_clean(p.world));
+  // As long as it is too large, nothing else goes wrong.
+  p.world.change(ball, {.radius_rate = 0.05}).value();
+  const std::vector<std::byte> saved = p.world.save().value();
+  EXPECT_EQ(World::restore(saved).value().save().value(), saved);
   p.world.change(ball, {.radius = 1.0, .radius_rate = 0.0}).value();
   EXPECT_FALSE(p.advance(100.0));
 }
