@@ -98,7 +98,7 @@ recipes=(
   'already_?touching 20 a field of an event'
   'radius_?rate 20 a field of a body'
   'zeno_?interval 29 a field of the definition of a world'
-  'Triangle 50 a static shape'
+  'Triangle 49 a static shape'
   'earliest_?approach 12 a query'
   'sbs 10 a format of messages'
 )

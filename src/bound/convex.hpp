@@ -5,7 +5,6 @@
 
 #include "bound/hull_distance.hpp"
 #include "bound/reach.hpp"
-#include "bound/segments.hpp"
 #include "kinesphere/shape.hpp"
 
 namespace kinesphere {
@@ -36,9 +35,6 @@ inline GapLimits gap_limits(const Bound& bound, const Convex& convex, double t) 
 }
 inline Corners corners_near(std::span<const Vec3> points, const Convex& convex) {
   return std::visit([&](const auto& solid) { return corners_near(points, solid); }, convex);
-}
-inline NearestOnSegment nearest_on_segment(const LineSegment& segment, const Convex& convex) {
-  return std::visit([&](const auto& solid) { return nearest_on_segment(segment, solid); }, convex);
 }
 
 }  // namespace kinesphere

@@ -82,10 +82,10 @@ NearestParts from_surface(const Vec3& from, const SurfacePoint& nearest, double 
 
 template <class Solid>
 NearestParts of_part_and_solid(const PlacedPart& part, const Solid& solid) {
-  if (part.is_hull())
-    return of_hulls(nearest_in_hulls(part.points(), corners_near(part.points(), solid).all()), part, 0.0);
-  const Vec3 from = part.axis().at(nearest_on_segment(part.axis(), solid).position);
-  return from_surface(from, nearest_point(solid, from), part.radius());
+  const auto points = part.points();
+  if (points.size() > 1)
+    return of_hulls(nearest_in_hulls(points, corners_near(points, solid).all()), part, 0.0);
+  return from_surface(points[0], nearest_point(solid, points[0]), part.radius());
 }
 
 NearestParts of_part_and_solid(const PlacedPart& part, const HalfSpace& solid) {

@@ -29,8 +29,8 @@ struct NearestParts {
 };
 
 NearestParts nearest_parts(const RigidPose& first, const RigidPose& second);
-/// Returns the part that is nearest to a shape at rest. The gap to a half-space or a box may be less than
-/// minus the radius of the part.
+/// Returns the part that is nearest to a shape at rest. The gap to a half-space, and that of a ball to
+/// a box, may be less than minus the radius of the part.
 template <class Solid>
 NearestParts nearest_parts(const RigidPose& first, const Solid& second);
 NearestParts nearest_parts(const RigidPose& first, const Mesh& second);

@@ -313,15 +313,15 @@ GapLimits gap(const PartBound& a, const HalfSpace& wall, double t) {
 
 // A part and a convex solid.
 
-/// A hull and a solid at a time: nearest points and the direction between them.
-struct HullBesideSolid {
+/// A capsule or a hull and a solid at a time: nearest points and the direction between them.
+struct PartBesideSolid {
   const PartBound& part;
   const Placed<Convex>& shape;
   double time;
   Corners corners;
   NearestInHulls nearest;
 
-  HullBesideSolid(const PartBound& given, const Placed<Convex>& partner, double at)
+  PartBesideSolid(const PartBound& given, const Placed<Convex>& partner, double at)
       : part(given), shape(partner), time(at) {
     const auto points = part.points(time, shape.origin(time));
     corners = corners_near(points, shape.solid);
@@ -335,91 +335,55 @@ struct HullBesideSolid {
     }
     return found;
   }
-};
-
-/// The nearest point of a capsule's axis to a solid, fixed in the body, and the direction there.
-struct AxisBesideSolid {
-  Vec3 nearest;
-  Vec3 normal;
-  bool crosses;  ///< true if the axis has a part in the solid, however deep
-
-  AxisBesideSolid(const PartBound& part, const Placed<Convex>& shape, double time) {
-    const LineSegment axis = part.axis(time, shape.origin(time));
-    const NearestOnSegment at = nearest_on_segment(axis, shape.solid);
-    nearest = on_axis(part, at.position);
-    normal = nearest_point(shape.solid, axis.at(at.position)).normal;
-    crosses = at.crosses;
+  /// Bound of the nearest point, fixed in the part.
+  Bound nearest_bound() const {
+    return part.of_point(nearest.in_first([&](std::size_t k) { return point_of(part.part(), k); }));
   }
 };
 
-/// Returns the time before which no points of a part come within `distance` of a plane that has the solid on
-/// its far side.
-double meeting_along(const PartBound& part, const Vec3& normal, const Placed<Convex>& shape, double time,
-                     double until, double distance) {
-  const HalfSpace plane = supporting_plane(shape.solid, normal);
-  double first = infinity;
-  part.for_each_point([&](const Bound& point) {
-    const BoundBesideBound motion = shape.beside(point, time);
-    first = std::min(first, earliest_meeting(motion.bound, plane, time, until, distance + motion.slack));
-  });
-  return first;
-}
-
-/// Parts do not know how deep their axes or hulls reach into a solid: see meeting_of_hulls().
+/// Each step lasts until a point of the part comes within `distance` of a plane with the solid behind it.
+/// Parts do not know how deep they reach into a solid: see meeting_of_hulls().
 double meeting(const PartBound& part, const Placed<Convex>& shape, double from, double until,
                double distance) {
   if (part.is_ball()) return earliest_meeting(part.ball(), shape, from, until, distance);
   const double deepest = -part.part().radius;
   return repeated(from, [&](double time) {
-    const auto along = [&](const Vec3& normal, bool overlap) {
-      if (distance < deepest && time == from && !part.is_foreseen() && overlap) return infinity;
-      return meeting_along(part, normal, shape, time, until, std::max(distance, deepest));
-    };
-    if (part.is_hull()) {
-      const NearestInHulls nearest = HullBesideSolid(part, shape, time).nearest;
-      return along(nearest.normal, nearest.overlap());
-    }
-    const AxisBesideSolid now(part, shape, time);
-    return along(now.normal, now.crosses);
+    const NearestInHulls nearest = PartBesideSolid(part, shape, time).nearest;
+    if (distance < deepest && time == from && !part.is_foreseen() && nearest.overlap()) return infinity;
+    const HalfSpace plane = supporting_plane(shape.solid, nearest.normal);
+    double first = infinity;
+    part.for_each_point([&](const Bound& point) {
+      const auto [motion, slack] = shape.beside(point, time);
+      first =
+          std::min(first, earliest_meeting(motion, plane, time, until, std::max(distance, deepest) + slack));
+    });
+    return first;
   });
 }
 
-/// A point that is fixed in an axis may leave at once a solid that the axis goes on to cross; witnesses slide
-/// along the axis.
+/// A point that is fixed in a part may leave at once a solid that the part goes on to cross; witnesses slide
+/// along the part.
 double separation(const PartBound& part, const Placed<Convex>& shape, double from, double until,
                   double distance) {
   if (part.is_ball()) return earliest_separation(part.ball(), shape, from, until, distance);
   return repeated(from, [&](double time) {
-    const auto of_witness = [&] {
-      return HullBesideSolid(part, shape, time).witness().separation(until, distance);
-    };
-    if (part.is_hull()) return of_witness();
-    const AxisBesideSolid now(part, shape, time);
-    const double fixed = earliest_separation(part.of_point(now.nearest), shape, time, until, distance);
-    return now.crosses && fixed < infinity ? std::max(fixed, of_witness()) : fixed;
+    const PartBesideSolid now(part, shape, time);
+    const double fixed = earliest_separation(now.nearest_bound(), shape, time, until, distance);
+    return fixed < infinity ? std::max(fixed, now.witness().separation(until, distance)) : fixed;
   });
 }
 
 GapLimits gap(const PartBound& part, const Placed<Convex>& shape, double t) {
   if (part.is_ball()) return gap_limits(part.ball(), shape, t);
-  const auto least = [&](const Vec3& normal) {
-    const HalfSpace plane = supporting_plane(shape.solid, normal);
-    double lower = infinity;
-    part.for_each_point([&](const Bound& point) {
-      const BoundBesideBound motion = shape.beside(point, t);
-      lower = std::min(lower, gap_limits(motion.bound, plane, t).lower - motion.slack);
-    });
-    return lower;
-  };
-  if (part.is_hull()) {
-    const HullBesideSolid now(part, shape, t);
-    const double upper = now.witness().largest_gap();
-    return {std::min(std::max(least(now.nearest.normal), -part.largest_radius(t)), upper), upper};
-  }
-  const AxisBesideSolid now(part, shape, t);
-  GapLimits limits = gap_limits(part.of_point(now.nearest), shape, t);
-  limits.lower = std::min(limits.lower, least(now.normal));
-  return limits;
+  const PartBesideSolid now(part, shape, t);
+  const HalfSpace plane = supporting_plane(shape.solid, now.nearest.normal);
+  double least = infinity;
+  part.for_each_point([&](const Bound& point) {
+    const auto [motion, slack] = shape.beside(point, t);
+    least = std::min(least, gap_limits(motion, plane, t).lower - slack);
+  });
+  const double upper = now.witness().largest_gap();
+  return {std::min(std::max(least, -part.largest_radius(t)), upper), upper};
 }
 
 // A part and a mesh: its triangles, but those whose boxes the ball around the part does not reach.
@@ -707,7 +671,7 @@ double sinking_of(const PartBound& part, const HalfSpace& wall, double from, dou
 
 double sinking_of(const PartBound& part, const Placed<Convex>& shape, double from, double until,
                   const Sinking& sinking) {
-  const HullBesideSolid now(part, shape, from);
+  const PartBesideSolid now(part, shape, from);
   return sinking_of(now.nearest, point_count(part.part()), now.corners.all().size(), -part.part().radius,
                     from, until, sinking, [&](std::size_t k, std::size_t j) {
                       return BoundBesideBound(part.point(k), shape.of_point(now.corners.all()[j], from), from,

@@ -1,11 +1,10 @@
-// Points of two segments, or of a segment and a solid, that are nearest to each other. Certificates stay true
-// for any points; accurate ones make them last longer.
+// Points of two segments that are nearest to each other. Certificates stay true for any points; accurate ones
+// make them last longer.
 #pragma once
 
 #include <algorithm>
-#include <optional>
 
-#include "kinesphere/shape.hpp"
+#include "kinesphere/vec3.hpp"
 
 namespace kinesphere {
 
@@ -45,85 +44,6 @@ inline NearestOnSegments nearest_on_segments(const LineSegment& p, const LineSeg
   }
   const double clamped = unit(second);
   return {unit((pq * clamped - pr) / pp), clamped};
-}
-
-/// Calls visit(edge) for each edge of the solid.
-template <class Visit>
-void for_each_edge(const Triangle& t, Visit visit) {
-  visit(LineSegment{t.a, t.b});
-  visit(LineSegment{t.b, t.c});
-  visit(LineSegment{t.c, t.a});
-}
-
-template <class Visit>
-void for_each_edge(const Box& box, Visit visit) {
-  for (int axis = 0; axis < 3; ++axis)
-    for (int corner = 0; corner < 4; ++corner) {
-      LineSegment edge{box.lower, box.lower};
-      const int next = (axis + 1) % 3;
-      const int last = (axis + 2) % 3;
-      edge.b[axis] = box.upper[axis];
-      if (corner & 1) edge.a[next] = edge.b[next] = box.upper[next];
-      if (corner & 2) edge.a[last] = edge.b[last] = box.upper[last];
-      visit(edge);
-    }
-}
-
-/// Returns the middle of the part of the segment that is inside the box, or nullopt if there is none.
-inline std::optional<double> crossing(const LineSegment& segment, const Box& box) {
-  double from = 0.0;
-  double to = 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double start = segment.a[axis];
-    const double way = segment.b[axis] - start;
-    if (way == 0.0 && (start < box.lower[axis] || start > box.upper[axis])) return std::nullopt;
-    if (way == 0.0) continue;
-    const double one = (box.lower[axis] - start) / way;
-    const double other = (box.upper[axis] - start) / way;
-    from = std::max(from, std::min(one, other));
-    to = std::min(to, std::max(one, other));
-  }
-  return from <= to ? std::optional(0.5 * (from + to)) : std::nullopt;
-}
-
-/// Returns where the segment crosses the triangle, or nullopt if it does not.
-inline std::optional<double> crossing(const LineSegment& segment, const Triangle& t) {
-  const Vec3 normal = cross(t.b - t.a, t.c - t.a);
-  const double start = dot(normal, segment.a - t.a);
-  const double end = dot(normal, segment.b - t.a);
-  if (!(start * end < 0.0)) return std::nullopt;
-  const double part = start / (start - end);
-  const Vec3 point = segment.at(part);
-  const auto is_inside = [&](const Vec3& from, const Vec3& to) {
-    return dot(cross(to - from, point - from), normal) >= 0.0;
-  };
-  if (!is_inside(t.a, t.b) || !is_inside(t.b, t.c) || !is_inside(t.c, t.a)) return std::nullopt;
-  return part;
-}
-
-/// The point of a segment nearest to a solid.
-struct NearestOnSegment {
-  double position = 0.0;  ///< from 0 at a to 1 at b
-  bool crosses = false;   ///< true if the point is in the solid
-};
-
-/// Returns the nearest point to the solid. Unless the two intersect, that point is an end, or the nearest one
-/// to an edge of the solid.
-template <class Solid>
-NearestOnSegment nearest_on_segment(const LineSegment& segment, const Solid& solid) {
-  if (const auto inside = crossing(segment, solid)) return {*inside, true};
-  const double from_a = nearest_point(solid, segment.a).distance;
-  const double from_b = nearest_point(solid, segment.b).distance;
-  double nearest = from_a <= from_b ? 0.0 : 1.0;
-  double least = std::min(from_a, from_b);
-  for_each_edge(solid, [&](const LineSegment& edge) {
-    const NearestOnSegments at = nearest_on_segments(segment, edge);
-    const double distance = norm(segment.at(at.first) - edge.at(at.second));
-    if (!(distance < least)) return;
-    least = distance;
-    nearest = at.first;
-  });
-  return {nearest};
 }
 
 }  // namespace kinesphere

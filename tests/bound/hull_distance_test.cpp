@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "kinesphere/random.hpp"
@@ -104,6 +106,34 @@ TEST_P(HullDistance, IsThatOfBruteForce) {
   EXPECT_GT(grazes, 100);
   if (GetParam().first == HullKind::box) {
     EXPECT_GT(overlaps, 50);
+  }
+}
+
+/// The corners of the part of a solid that is near a segment have the nearest point of the whole.
+template <class Solid>
+void expect_nearest(const std::vector<Vec3>& ends, const Solid& solid) {
+  const NearestInHulls found = nearest_in_hulls(ends, corners_near(ends, solid).all());
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= 200; ++k)
+    least = std::min(least, nearest_point(solid, ends[0] + (ends[1] - ends[0]) * (k / 200.0)).distance);
+  ASSERT_LE(found.distance, std::max(least, 0.0) + 1e-15);
+  ASSERT_GE(found.distance, std::max(least, 0.0) - 0.02);
+  const double from = nearest_point(solid, found.in_first([&](std::size_t k) { return ends[k]; })).distance;
+  ASSERT_NEAR(std::max(from, 0.0), found.distance, 1e-12);
+}
+
+TEST(CornersNear, HaveTheNearestPointOfBoxesAndTriangles) {
+  for (std::uint64_t part = 0; part < 1000; ++part) {
+    SCOPED_TRACE(part);
+    Random random = Random::at(5201, part, 1);
+    const Vec3 middle = random.point_in_ball();
+    const std::vector<Vec3> ends{middle + 1.5 * random.point_in_ball(),
+                                 middle + 1.5 * random.point_in_ball()};
+    const Vec3 corner = random.point_in_ball();
+    const Vec3 edges{random.uniform(), random.uniform(), part % 5 == 0 ? 0.0 : random.uniform()};
+    ASSERT_NO_FATAL_FAILURE(expect_nearest(ends, Box{corner, corner + edges}));
+    ASSERT_NO_FATAL_FAILURE(expect_nearest(
+        ends, Triangle{random.point_in_ball(), random.point_in_ball(), random.point_in_ball()}));
   }
 }
 

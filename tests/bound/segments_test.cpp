@@ -1,4 +1,4 @@
-// Nearest points of segments, boxes and triangles, against points taken all along them.
+// Nearest points of segments, against points taken all along them.
 #include "bound/segments.hpp"
 
 #include <gtest/gtest.h>
@@ -59,57 +59,6 @@ TEST(NearestOnSegments, OfPointsAreThesePoints) {
   EXPECT_TRUE(of_points.second >= 0.0 && of_points.second <= 1.0);
   EXPECT_EQ(nearest_on_segments(point, {{0, 2, 3}, {4, 2, 3}}).second, 0.25);
   EXPECT_EQ(nearest_on_segments({{0, 2, 3}, {4, 2, 3}}, point).first, 0.25);
-}
-
-template <class Solid>
-void expect_nearest(const LineSegment& segment, const Solid& solid) {
-  const double part = nearest_on_segment(segment, solid).position;
-  ASSERT_TRUE(part >= 0.0 && part <= 1.0);
-  const double found = nearest_point(solid, segment.at(part)).distance;
-  const auto from_solid = [&](const Vec3& point) { return nearest_point(solid, point).distance; };
-  ASSERT_LE(std::max(found, 0.0), std::max(least_along(segment, from_solid), 0.0) + 1e-6);
-}
-
-TEST(NearestOnSegment, OfBoxesAndTriangles) {
-  SCOPED_TRACE(seed);
-  for (std::uint64_t part = 0; part < 1000; ++part) {
-    SCOPED_TRACE(part);
-    Random random = Random::at(seed, part, 1);
-    const LineSegment segment = some_segment(random, 1.5);
-    const Vec3 corner = random.point_in_ball();
-    const Vec3 edges{random.uniform(), random.uniform(), part % 5 == 0 ? 0.0 : random.uniform()};
-    ASSERT_NO_FATAL_FAILURE(expect_nearest(segment, Box{corner, corner + edges}));
-    ASSERT_NO_FATAL_FAILURE(expect_nearest(
-        segment, Triangle{random.point_in_ball(), random.point_in_ball(), random.point_in_ball()}));
-  }
-}
-
-TEST(Crossing, IsInsideTheBox) {
-  const Box box{{0, 0, 0}, {1, 1, 1}};
-  EXPECT_EQ(crossing({{-1, 0.5, 0.5}, {3, 0.5, 0.5}}, box), 0.375);
-  EXPECT_EQ(crossing({{-1, 0.5, 1.5}, {3, 0.5, 1.5}}, box), std::nullopt);
-  EXPECT_EQ(crossing({{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}}, box), 0.5) << "a point inside";
-  EXPECT_EQ(crossing({{2, 0.5, 0.5}, {3, 0.5, 0.5}}, box), std::nullopt) << "on the line, but before it";
-}
-
-TEST(Crossing, IsInsideTheTriangle) {
-  const Triangle t{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  EXPECT_EQ(crossing({{0.2, 0.2, -1}, {0.2, 0.2, 3}}, t), 0.25);
-  EXPECT_EQ(crossing({{0.8, 0.8, -1}, {0.8, 0.8, 3}}, t), std::nullopt);
-  EXPECT_EQ(crossing({{0.2, 0.2, 1}, {0.2, 0.2, 3}}, t), std::nullopt);
-  EXPECT_EQ(crossing({{0.2, 0.2, 0}, {0.5, 0.2, 0}}, t), std::nullopt) << "in its plane";
-}
-
-TEST(ForEachEdge, HasThoseOfABox) {
-  int edges = 0;
-  Vec3 lengths;
-  for_each_edge(Box{{0, 0, 0}, {1, 2, 4}}, [&](const LineSegment& edge) {
-    ++edges;
-    lengths += edge.b - edge.a;
-    EXPECT_EQ(int(edge.a.x != edge.b.x) + int(edge.a.y != edge.b.y) + int(edge.a.z != edge.b.z), 1);
-  });
-  EXPECT_EQ(edges, 12);
-  EXPECT_EQ(lengths, (Vec3{4, 8, 16}));
 }
 
 }  // namespace

@@ -55,23 +55,6 @@ inline double distance_of(const Shape& shape, const Vec3& from) {
       shape);
 }
 
-/// The distance from a convex shape is convex along a segment.
-inline double segment_distance(const Axis& axis, const Shape& shape, const Vec3& origin) {
-  const auto at = [&](double part) { return distance_of(shape, axis.a + (axis.b - axis.a) * part - origin); };
-  if (axis.a == axis.b) return at(0.0);
-  double lower = 0.0;
-  double upper = 1.0;
-  for (int step = 0; step < 60; ++step) {
-    const double left = lower + (upper - lower) / 3.0;
-    const double right = upper - (upper - lower) / 3.0;
-    if (at(left) < at(right))
-      upper = right;
-    else
-      lower = left;
-  }
-  return std::min({at(lower), at(0.0), at(1.0)});
-}
-
 inline std::vector<Vec3> points_of(const RigidPart& part) {
   std::vector<Vec3> points{part.a};
   if (part.b != part.a) points.push_back(part.b);
@@ -126,8 +109,13 @@ inline double gap_of(const PlacedPart& part, const Shape& shape, const Vec3& ori
       least = std::min(least, gap_of(part, mesh->triangle(k), origin, is_deep, enough));
     return least;
   }
-  if (!part.is_hull) return segment_distance(part.axis, shape, origin) - part.axis.radius;
   if (const auto* space = std::get_if<HalfSpace>(&shape)) return gap_of(part, *space);
+  if (part.points.size() == 1) return distance_of(shape, part.points[0] - origin) - part.axis.radius;
+  if (const auto* ball = std::get_if<Ball>(&shape)) {
+    const true_hulls::Hull point{std::vector<Vec3>(1)};
+    return gap_of(part, PlacedPart({.radius = ball->radius}, point, origin + ball->centre, {}), is_deep,
+                  enough);
+  }
   const auto* triangle = std::get_if<Triangle>(&shape);
   std::vector<Vec3> points = triangle ? std::vector{triangle->a, triangle->b, triangle->c}
                                       : points_of(box_part(std::get<Box>(shape), 0.0));

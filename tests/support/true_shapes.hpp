@@ -32,10 +32,6 @@ class CarriedHulls {
       const double near = placed_parts::distance_of(other, part.middle - origin) - part.reach;
       if (near > enough) {
         least = std::min(least, near);
-      } else if (const auto* ball = std::get_if<Ball>(&other)) {
-        const true_hulls::Hull point{std::vector<Vec3>(1)};
-        const placed_parts::PlacedPart solid({.radius = ball->radius}, point, ball->centre, {});
-        least = std::min(least, placed_parts::gap_of(part, solid, true, enough));
       } else {
         least = std::min(least, placed_parts::gap_of(part, other, origin, true, enough));
       }
