@@ -171,26 +171,12 @@ void EventProcessor::note_response() {
   events_.note_response(contacts(), [this](std::uint32_t number) { return sphere(number); });
 }
 
-void EventProcessor::recertify_changed() {
-  note_response();
-  auto& changed = events_.changed();
-  while (!changed.empty()) {
-    const auto [a, b] = changed.back();
-    note_link_change(a, b);
-    changed.pop_back();
-  }
-}
-
 Result<void> EventProcessor::recertify_all() {
-  recertify_changed();
+  note_response();
   // Reports can violate bounds, which makes further bodies dirty.
-  while (!dirty_.empty()) {
+  do {
     if (auto recertified = recertify_dirty(); !recertified) return recertified;
-  }
-  if (!linked_.empty()) {
-    round_.clear();
-    settle_core();
-  }
+  } while (!dirty_.empty());
   return {};
 }
 
