@@ -46,9 +46,9 @@ float Core::reach(const Ball& ball) const {
 }
 
 /// Returns the radius (length) of the widest safe region with which two neighbours can meet only in the image
-/// in which their bounds are nearest, while both are in their regions (docs/guarantee.md has the proof). Where
-/// a ball is so far away on an axis that does not repeat that single precision tells no such lengths apart,
-/// its region is wider, and keeps_image() limits its time there.
+/// in which their bounds are nearest, while both are in their regions (docs/guarantee.md has the proof).
+/// Where a ball is so far away on an axis that does not repeat that single precision tells no such lengths
+/// apart, its region is wider, and keeps_image() limits its time there.
 double Core::widest_region(const Ball& ball) const {
   double widest = infinity;
   for (int axis = 0; axis < 3; ++axis) {

@@ -35,8 +35,8 @@ bool EventProcessor::rebuild_core() {
 void EventProcessor::set_kind_in_core(std::uint32_t number) {
   const Body& body = bodies()[number];
   const bool touches_walls = contacts().walls_of(number) != 0;
-  const bool is_linked = touches_walls || !contacts().partners_of(number).empty() ||
-                         !contacts().overlaps_of(number).empty();
+  const bool is_linked =
+      touches_walls || !contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty();
   const bool is_plain = !body.is_shaped() && !body.is_sleeping() && body.change_number == Body::none &&
                         sensor_reach(bodies(), number) == 0.0 && bodies().radii.find(number) == nullptr;
   core().set_kind(number, is_linked, touches_walls, is_plain);
@@ -87,12 +87,11 @@ void EventProcessor::settle_core() {
     set_kind_in_core(number);
     note_rotation(number);
     body.mark_recertified();
+    ++counters_of(number).restarts;
   }
-  for (const std::uint32_t number : round_) ++counters_of(number).restarts;
   dirty_.clear();
   note_changed_contacts();
-  std::sort(round_.begin(), round_.end());
-  round_.erase(std::unique(round_.begin(), round_.end()), round_.end());
+  make_ascending(round_);
   std::erase_if(round_, [this](std::uint32_t number) { return !core().contains(number); });
   core().settle(round_, *this);
 }

@@ -75,7 +75,8 @@ Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, Probe
   note_probes(numbers, cause);
   const auto broken = reports_.take(bodies(), time_, numbers);
   if (!broken) return broken.error();
-  note_reports(numbers);
+  // What has changed is told to the core as a whole.
+  if (cause != ProbeCause::change) note_reports(numbers);
   for (const auto& [k, velocity, violation, acceleration_limit] : *broken) {
     Sphere reported = sphere(numbers[k]);
     reported.state.velocity = velocity;

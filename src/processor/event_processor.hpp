@@ -204,7 +204,7 @@ class alignas(128) EventProcessor final : public core::Host {
   Counters counters_;
   Counters of_ghosts_;  ///< work on ghosts of a rank's part
   Reports reports_;
-  PairTimes known_;                    ///< of pairs that are near
+  PairTimes known_;  ///< of pairs that are near
   // Members only to reuse their memory.
   std::vector<std::uint32_t> round_, partners_;
 };

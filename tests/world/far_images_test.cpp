@@ -168,8 +168,8 @@ TEST(FarImages, RegionsLeaveRoomForTheErrorsOfReports) {
     Playground p({.box = Box{{0, 0, 0}, {period, period, period}},
                   .periodic = {true, true, true},
                   .contact_tolerance = 1e-3});
-    const BodyId body = p.add(
-        {.radius = size, .acceleration_limit = 0.1, .position_error = error, .velocity = {1, 0, 0}});
+    const BodyId body =
+        p.add({.radius = size, .acceleration_limit = 0.1, .position_error = error, .velocity = {1, 0, 0}});
     p.run(2.0);
     const Box box = p.world.body(body).value().box;
     const double region = 0.5 * (box.upper.x - box.lower.x) - size - error;
