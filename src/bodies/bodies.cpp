@@ -76,6 +76,11 @@ MotionLimits Bodies::limits_of(std::uint32_t number) const {
   return bound_limits_of(number);
 }
 
+Bound Bodies::changed_bound(std::uint32_t number, const State& state, double time) const {
+  const BodyDefinition body{.radius = table_[number].radius, .radius_rate = radius_rate(number)};
+  return bound_of(with_motion_limits(body, limits_of(number)), state, time);
+}
+
 void Bodies::forget_change(std::uint32_t number) {
   if (ChangingRadius* const changing = radii.find(number))
     if (const Change* const change = changes.find(table_[number]))

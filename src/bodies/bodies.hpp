@@ -62,7 +62,9 @@ class Bodies {
   BodyDefinition definition_of(std::uint32_t number) const;
   /// Returns the motion limits in it.
   MotionLimits limits_of(std::uint32_t number) const;
-  /// Returns those of the bound of the body.
+  /// Returns the bound of the body, in this state, with these limits.
+  Bound changed_bound(std::uint32_t number, const State& state, double time) const;
+  /// Returns the limits that the bound of the body has now.
   MotionLimits bound_limits_of(std::uint32_t number) const {
     const Body& body = table_[number];
     return {body.bound.acceleration_limit, body.bound.planned_acceleration, body.position_error,

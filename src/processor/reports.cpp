@@ -257,8 +257,7 @@ void Reports::apply(Bodies& bodies, double time, std::size_t k, std::vector<Viol
   if (const Change* change = bodies.changes.find(body)) {
     new_velocity = change->velocity;
     velocity_error = change->limits.velocity_error;
-    const BodyDefinition changed{.radius = body.radius, .radius_rate = bodies.radius_rate(number)};
-    body.bound = bound_of(with_motion_limits(changed, bodies.limits_of(number)), state, time);
+    body.bound = bodies.changed_bound(number, state, time);
   } else {
     restart(body.bound, time, state);
     if (changes_size) body.bound.radius = body.radius + body.position_error;
