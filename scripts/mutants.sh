@@ -66,12 +66,13 @@ for name in "${mutants[@]}"; do
   read -r executable filter <<<"$(caught_by "$name")"
   mutant "$name" | apply
   cmake --build "$build" --target "$executable" >"$build/build.log" 2>&1 || { cat "$build/build.log"; exit 1; }
-  if run_test "$executable" "$filter" >"$build/test.log" 2>&1; then
-    echo "SURVIVES  $name  ($filter passes)"
-    survivors=$((survivors + 1))
-  else
-    echo "caught    $name  by $filter"
-  fi
+  status=0
+  run_test "$executable" "$filter" >"$build/test.log" 2>&1 || status=$?
+  case $status in
+    0) echo "SURVIVES  $name  ($filter passes)" && survivors=$((survivors + 1)) ;;
+    124) echo "caught    $name  by $filter, which hangs" ;;
+    *) echo "caught    $name  by $filter" ;;
+  esac
   mutant "$name" | apply -R
 done
 [[ $survivors == 0 ]]
