@@ -5,7 +5,7 @@
 # the patch.
 # Usage: mutants.sh [--check] [NAME...]
 #   NAME...   these mutants, or all
-#   --check   only sees whether each patch applies
+#   --check   only sees whether each patch applies, and the folder of its tests exists
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -24,6 +24,9 @@ if [[ $check ]]; then
   bad=0
   for name in "${mutants[@]}"; do
     mutant "$name" | git apply --check - || { echo "mutants: $name does not apply" >&2; bad=1; }
+    folder=$(mutant "$name" | sed -n 's/^Caught by: test_\([^ ]*\).*/\1/p')
+    [[ -d tests/$folder || -d research/tests/${folder#research_} ]] ||
+      { echo "mutants: $name is caught by tests in no folder that there is" >&2; bad=1; }
   done
   exit $bad
 fi
