@@ -36,6 +36,12 @@ if ! diff <(printf '%s\n' "${engine[@]}" | sort) <(basename -a src/*/ | sort) ||
   echo "lint: scripts/lint.sh and docs/architecture.md must list all folders of src and toolkit" >&2
   exit 1
 fi
+# Scripts that not every change runs name folders of tests.
+for script in scripts/{sanitize,windows}.sh; do
+  for room in $(tr '\n' ' ' <"$script" | grep -oP ' (rooms|tests)=\(\K[a-z][^)]*'); do
+    if [[ ! -d tests/$room ]]; then echo "lint: $script names tests/$room, which there is not" >&2 && exit 1; fi
+  done
+done
 # Usage: includes_only_earlier <folder> <prefix of its rooms in includes> <room>...
 includes_only_earlier() {
   local folder=$1 prefix=$2 k later

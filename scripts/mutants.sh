@@ -5,7 +5,7 @@
 # the patch.
 # Usage: mutants.sh [--check] [NAME...]
 #   NAME...   these mutants, or all
-#   --check   only sees whether each patch applies
+#   --check   only sees whether each patch applies, and the folder of its tests exists
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -24,6 +24,9 @@ if [[ $check ]]; then
   bad=0
   for name in "${mutants[@]}"; do
     mutant "$name" | git apply --check - || { echo "mutants: $name does not apply" >&2; bad=1; }
+    folder=$(mutant "$name" | sed -n 's/^Caught by: test_\([^ ]*\).*/\1/p')
+    [[ -d tests/$folder || -d research/tests/${folder#research_} ]] ||
+      { echo "mutants: $name is caught by tests in no folder that there is" >&2; bad=1; }
   done
   exit $bad
 fi
@@ -66,12 +69,13 @@ for name in "${mutants[@]}"; do
   read -r executable filter <<<"$(caught_by "$name")"
   mutant "$name" | apply
   cmake --build "$build" --target "$executable" >"$build/build.log" 2>&1 || { cat "$build/build.log"; exit 1; }
-  if run_test "$executable" "$filter" >"$build/test.log" 2>&1; then
-    echo "SURVIVES  $name  ($filter passes)"
-    survivors=$((survivors + 1))
-  else
-    echo "caught    $name  by $filter"
-  fi
+  status=0
+  run_test "$executable" "$filter" >"$build/test.log" 2>&1 || status=$?
+  case $status in
+    0) echo "SURVIVES  $name  ($filter passes)" && survivors=$((survivors + 1)) ;;
+    124) echo "caught    $name  by $filter, which hangs" ;;
+    *) echo "caught    $name  by $filter" ;;
+  esac
   mutant "$name" | apply -R
 done
 [[ $survivors == 0 ]]

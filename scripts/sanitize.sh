@@ -8,7 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-}
 if [[ $preset != asan && $preset != tsan ]]; then echo "sanitize: usage: sanitize.sh asan | tsan [arguments of ctest]" >&2 && exit 2; fi
 shift
-rooms=(archive contact bodies core processor speculation engine input motion parallel space stream world)
+rooms=(archive contact bodies core processor engine input motion parallel space stream world)
 # Tests that repeat themselves over many scenes, bodies or bytes, beside those with the label long.
 longest='LargeRound|Answers.AreNeverLater|Queries.AgreeWith|InAThousandScenes|BadSnapshot|FailedAdvance|TenThousandBullets'
 

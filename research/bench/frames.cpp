@@ -11,6 +11,7 @@
 #include "research/bench/commands.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/measures/games.hpp"
+#include "research/measures/steering.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -36,6 +37,8 @@ struct Play {
 
 constexpr Play plays[] = {
     {"thin", 0.3, false}, {"steady", 3.0, false}, {"dense", 10.0, false}, {"eventful", 3.0, true}};
+
+constexpr std::string_view steered_part = "steered";
 
 /// Costs of the frames of a game: times, or counts.
 class FrameCosts {
@@ -100,6 +103,19 @@ void add_play(ResultTable& table, ResultTable& every_frame, const Play& play, st
   add_costs(table, play, bodies, "work", FrameCosts(work, settings.first_frames));
 }
 
+double median_frame(std::vector<double> seconds) { return FrameCosts(std::move(seconds), 1).percentile(0.5); }
+
+/// Adds a row of a crowd in which all velocities change in each frame.
+void add_steered(ResultTable& table, std::uint32_t bodies, int dimensions, std::uint32_t frames) {
+  const SteeringSettings settings{
+      .bodies = bodies, .dimensions = dimensions, .packing = dimensions == 3 ? 0.03 : 0.1, .frames = frames};
+  const double grid = median_frame(steer_grid(settings).seconds);
+  const double velocities = median_frame(steer_world(settings, SteeringBy::velocities).seconds);
+  const double pushed = median_frame(steer_world(settings, SteeringBy::frames).seconds);
+  table.row({std::uint64_t{bodies}, std::to_string(dimensions), 1e3 * grid, 1e3 * velocities, 1e3 * pushed,
+             velocities / grid, pushed / grid});
+}
+
 void bench_frames(const BenchOptions& options, const Report& report) {
   const FrameSettings& settings = frame_settings(options.effort());
   report.note(
@@ -119,16 +135,28 @@ void bench_frames(const BenchOptions& options, const Report& report) {
   }
   report.table("frames", table);
   report.save("every_frame", every_frame);
+  if (!options.has(steered_part)) return;
+  report.note(
+      "All velocities change in each frame (\"steered\"): CPU time of a median frame, in ms, of the world by "
+      "set_velocities() and by push(), and of a uniform grid that looks at the end of each frame only.");
+  ResultTable steered(
+      {"n", "dimensions", "grid", "velocities", "push", "velocities_to_grid", "push_to_grid"});
+  for (const int dimensions : {2, 3})
+    for (const std::uint32_t bodies : settings.bodies)
+      add_steered(steered, bodies, dimensions, settings.first_frames);
+  report.table("steered", steered);
 }
 
 }  // namespace
 
 Command add_frames(CLI::App& app) {
+  std::vector<std::string> parts = names_of_parts(plays);
+  parts.emplace_back(steered_part);
   return add_benchmark(
       app, {.name = "frames",
             .description = "What the frames of a game cost: the median, and the worst; takes minutes",
             .full_description = "A minute of each game, not ten seconds",
-            .parts = names_of_parts(plays),
+            .parts = std::move(parts),
             .run = bench_frames});
 }
 

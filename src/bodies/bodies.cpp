@@ -54,28 +54,31 @@ void Bodies::remove(std::uint32_t number) {
 
 BodyDefinition Bodies::definition_of(std::uint32_t number) const {
   const Body& body = table_[number];
-  const Bound& bound = body.bound;
-  BodyDefinition definition{.radius = body.radius,
-                            .acceleration_limit = bound.acceleration_limit,
-                            .planned_acceleration = bound.planned_acceleration,
-                            .position_error = body.position_error,
-                            .velocity_error = velocity_error(number),
-                            .position = bound.position,
-                            .velocity = bound.velocity,
-                            .filter = filters.of(number),
-                            .solid = body.solid,
-                            .contacts = body.contact_events,
-                            .sensor_class = body.sensor_class,
-                            .user_data = body.user_data,
-                            .mass = masses.of(number),
-                            .radius_rate = radius_rate(number)};
-  if (const Change* change = changes.find(body)) {
-    definition = with_motion_limits(definition, change->limits);
-    definition.velocity = change->velocity.value_or(bound.velocity);
-  }
-  if (const SleepRecord* record = sleep_records.find(body))
-    definition = with_motion_limits(definition, record->limits);
-  return definition;
+  const Change* const change = changes.find(body);
+  BodyDefinition definition{
+      .radius = body.radius,
+      .position = body.bound.position,
+      .velocity = change ? change->velocity.value_or(body.bound.velocity) : body.bound.velocity,
+      .filter = filters.of(number),
+      .solid = body.solid,
+      .contacts = body.contact_events,
+      .sensor_class = body.sensor_class,
+      .user_data = body.user_data,
+      .mass = masses.of(number),
+      .radius_rate = radius_rate(number)};
+  return with_motion_limits(definition, limits_of(number));
+}
+
+MotionLimits Bodies::limits_of(std::uint32_t number) const {
+  const Body& body = table_[number];
+  if (const SleepRecord* record = sleep_records.find(body)) return record->limits;
+  if (const Change* change = changes.find(body)) return change->limits;
+  return bound_limits_of(number);
+}
+
+Bound Bodies::changed_bound(std::uint32_t number, const State& state, double time) const {
+  const BodyDefinition body{.radius = table_[number].radius, .radius_rate = radius_rate(number)};
+  return bound_of(with_motion_limits(body, limits_of(number)), state, time);
 }
 
 void Bodies::forget_change(std::uint32_t number) {
@@ -83,6 +86,14 @@ void Bodies::forget_change(std::uint32_t number) {
     if (const Change* const change = changes.find(table_[number]))
       changing->velocity_error = change->limits.velocity_error;
   changes.remove(table_, number);
+}
+
+void Bodies::release_change(std::uint32_t number) {
+  Body& body = table_[number];
+  if (body.change_number == Body::none) return;
+  if (ChangingRadius* const changing = radii.find(number))
+    changing->velocity_error = changes[body].limits.velocity_error;
+  changes.release(body);
 }
 
 void Bodies::set_radius_law(std::uint32_t number, double radius, double rate, double now) {
@@ -104,7 +115,7 @@ bool Bodies::filters_allow(std::uint32_t a, std::uint32_t b) const {
 Change& Bodies::change_of(std::uint32_t number) {
   Body& body = table_[number];
   if (changes.find(body)) return changes[body];
-  return changes.add(body, {number, std::nullopt, motion_limits_of(definition_of(number))});
+  return changes.add(body, {number, std::nullopt, limits_of(number)});
 }
 
 void Bodies::wrap_to_primary(std::uint32_t number, double now) {

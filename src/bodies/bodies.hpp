@@ -60,11 +60,25 @@ class Bodies {
 
   /// Returns the definition with the state of the last report and all pending changes.
   BodyDefinition definition_of(std::uint32_t number) const;
+  /// Returns the motion limits in it.
+  MotionLimits limits_of(std::uint32_t number) const;
+  /// Returns the bound of the body, in this state, with these limits.
+  Bound changed_bound(std::uint32_t number, const State& state, double time) const;
+  /// Returns the limits that the bound of the body has now.
+  MotionLimits bound_limits_of(std::uint32_t number) const {
+    const Body& body = table_[number];
+    return {body.bound.acceleration_limit, body.bound.planned_acceleration, body.position_error,
+            velocity_error(number)};
+  }
   void set_solid(std::uint32_t number, bool solid);
   /// Returns the pending change of the body, and creates it if there is none.
   Change& change_of(std::uint32_t number);
   /// Removes the pending change: it has taken effect, or the body is being removed.
   void forget_change(std::uint32_t number);
+  /// Removes the pending changes of many bodies: of each, and then all of these. Threads may call the first
+  /// for different bodies.
+  void release_change(std::uint32_t number);
+  void drop_released_changes() { changes.drop_released(table_); }
 
   // Radii that change with time. Body::radius is that at the last report.
   /// Returns the radius that the body has at time `now`.

@@ -16,6 +16,7 @@ template <class Record, std::uint32_t Body::*index>
 class SideTable {
  public:
   bool empty() const { return records_.empty(); }
+  std::size_t size() const { return records_.size(); }
   /// Returns nullptr if the body has no record.
   const Record* find(const Body& body) const {
     return body.*index == Body::none ? nullptr : &records_[body.*index];
@@ -37,6 +38,23 @@ class SideTable {
     bodies[number].*index = Body::none;
     records_[gap] = records_.back();
     records_.pop_back();
+  }
+
+  /// Takes its record from the body; drop_released() has to follow. Threads may call it for different bodies.
+  void release(Body& body) {
+    records_[body.*index].body = Body::none;
+    body.*index = Body::none;
+  }
+  /// Removes the records that bodies have released. Cost: O(records).
+  template <class Numbered>
+  void drop_released(Numbered& bodies) {
+    std::uint32_t kept = 0;
+    for (const Record& record : records_) {
+      if (record.body == Body::none) continue;
+      bodies[record.body].*index = kept;
+      records_[kept++] = record;
+    }
+    records_.resize(kept);
   }
 
   /// Returns true if each record belongs to one body. Call after reading.

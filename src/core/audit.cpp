@@ -17,12 +17,13 @@ const char* Core::audit(const std::function<Claim(std::uint32_t, std::uint32_t)>
     const Bound own = balls_.bound(a);
     const double left = std::min(ball.own, balls_.time() + 1e6 * std::max(1.0, std::abs(balls_.time())));
     // A ball that may have left its safe region is due now, or at the next time that there is.
-    for (const double time : {balls_.time(), 0.5 * (balls_.time() + left), left})
-      if (claim_of(a, a) == Claim::meet_as_balls && ball.own > just_after(balls_.time()) &&
-          norm(own.centre_at(time) - region_centre(ball)) + (own.radius_at(time) - own.radius) >
-              double{ball.region} * unit_)
-        return "H";
-    if (balls_.periods().any && ball.own > just_after(balls_.time()) && !(keeps_image(a) > 0.0)) return "N";
+    if (claim_of(a, a) == Claim::meet_as_balls && ball.own > just_after(balls_.time())) {
+      for (const double time : {balls_.time(), 0.5 * (balls_.time() + left), left})
+        if (norm(own.centre_at(time) - region_centre(ball)) + (own.radius_at(time) - own.radius) >
+            double{ball.region} * unit_)
+          return "H";
+      if (balls_.periods().any && !(keeps_image(a) > 0.0)) return "N";
+    }
     if (ball.due > ball.own || ball.second < ball.due) return "D";
     for (std::uint32_t b = 0; b < a; ++b) {
       if (!present(b)) continue;

@@ -28,7 +28,7 @@ struct alignas(64) Ball {
   std::uint32_t about = none;  ///< what `due` is about: a neighbour; itself, for `second`; none, for `own`
   std::uint32_t list = none;   ///< its list of neighbours
   std::uint32_t slot = none;   ///< where its safe region is in the cells; none if it has none
-  std::uint8_t walls = 0;      ///< bits of the walls that it may touch while in its safe region
+  std::uint8_t walls = 0;      ///< bits of the walls that it may touch in its safe region; `at_walls`
   std::uint8_t flags = 0;      ///< of those below
   std::uint8_t scans = 0;      ///< times that its list was scanned since it has this safe region
   std::uint8_t scans_by_region = 8;  ///< mean number of scans in its last safe regions, in eighths
@@ -43,6 +43,9 @@ struct alignas(64) Ball {
   static constexpr std::uint8_t crowded = 64;  ///< it may have been in touch with neighbours of late
   /// It touches others just where its bound does, has no sensor, and does not sleep.
   static constexpr std::uint8_t plain = 128;
+
+  /// A bit of `walls`: the contact of the ball with some wall has not ended, though it may be out of reach.
+  static constexpr std::uint8_t at_walls = 64;
 
   bool is(std::uint8_t flag) const { return (flags & flag) != 0; }
   void set(std::uint8_t flag, bool on) {

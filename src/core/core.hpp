@@ -77,11 +77,14 @@ class Core {
   }
   /// The ball has another bound, which may be anywhere. It has to be told as changed.
   void set_bound(std::uint32_t number, const Bound& bound);
-  /// The ball begins or ceases to touch or sense others, or to be one that meets others just where its bound
-  /// does (Ball::plain). It has to be told as changed.
-  void set_kind(std::uint32_t number, bool is_linked, bool is_plain) {
-    balls_[number].set(Ball::linked, is_linked);
-    balls_[number].set(Ball::plain, is_plain);
+  /// The ball begins or ceases to touch or sense others, to touch walls (it is linked then, too), or to be
+  /// one that meets others just where its bound does (Ball::plain). It has to be told as changed.
+  void set_kind(std::uint32_t number, bool is_linked, bool touches_walls, bool is_plain) {
+    Ball& ball = balls_[number];
+    ball.set(Ball::linked, is_linked);
+    ball.set(Ball::plain, is_plain);
+    ball.walls =
+        static_cast<std::uint8_t>(touches_walls ? ball.walls | Ball::at_walls : ball.walls & ~Ball::at_walls);
   }
   /// Restores the invariants, which hold but for these balls: they have arrived, or move in another way, or
   /// what they are to others has changed. Cost: one scan for each.

@@ -45,15 +45,19 @@ float Core::reach(const Ball& ball) const {
   return RegionCells::raised(static_cast<float>((double{ball.region} + lengths / unit_) * (1.0 + 0x1p-20)));
 }
 
-/// Returns the radius (length) of the widest safe region with which two neighbours can meet in one image only
-/// while both are in theirs: their centres are closer than half the period then. Where a ball is so far away
-/// on an axis that does not repeat that single precision tells no such lengths apart, its region is wider,
-/// and keeps_image() limits its time there.
+/// Returns the radius (length) of the widest safe region with which two neighbours can meet only in the image
+/// in which their bounds are nearest, while both are in their regions (docs/guarantee.md has the proof).
+/// Where a ball is so far away on an axis that does not repeat that single precision tells no such lengths
+/// apart, its region is wider, and keeps_image() limits its time there.
 double Core::widest_region(const Ball& ball) const {
   double widest = infinity;
-  for (int axis = 0; axis < 3; ++axis)
-    if (balls_.periods().length[axis] > 0.0)
-      widest = std::min(widest, 0.49 * (0.25 * balls_.periods().length[axis] - ball.radius - tolerance_));
+  for (int axis = 0; axis < 3; ++axis) {
+    const double period = balls_.periods().length[axis];
+    // The error of its reports is not known here, but less than its radius, and such that rule (1) of
+    // space/space.hpp holds.
+    const double room = std::max(0.25 * period - 3.0 * ball.radius - tolerance_, 0.0625 * period);
+    if (period > 0.0) widest = std::min(widest, 0.33 * room);
+  }
   return widest;
 }
 
@@ -150,7 +154,7 @@ void Core::place_region(std::uint32_t number, double radius) {
   for (int axis = 0; axis < 3; ++axis)
     ball.centre[axis] = static_cast<float>((centre[axis] - origin_[axis]) / unit_);
   if (ghosts_ != nullptr) ghosts_->note_region(number, region_centre(ball), double{reach(ball)} * unit_);
-  ball.walls = 0;
+  ball.walls &= Ball::at_walls;
   if (!ball.is(Ball::meets_walls)) return;
   const double extent = double{reach(ball)} * unit_;
   const Vec3 middle = region_centre(ball);

@@ -34,11 +34,12 @@ bool EventProcessor::rebuild_core() {
 /// Tells the core whether the body touches or senses anything, and whether it is plain (core::Ball).
 void EventProcessor::set_kind_in_core(std::uint32_t number) {
   const Body& body = bodies()[number];
-  const bool is_linked = contacts().walls_of(number) != 0 || !contacts().partners_of(number).empty() ||
-                         !contacts().overlaps_of(number).empty();
+  const bool touches_walls = contacts().walls_of(number) != 0;
+  const bool is_linked =
+      touches_walls || !contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty();
   const bool is_plain = !body.is_shaped() && !body.is_sleeping() && body.change_number == Body::none &&
                         sensor_reach(bodies(), number) == 0.0 && bodies().radii.find(number) == nullptr;
-  core().set_kind(number, is_linked, is_plain);
+  core().set_kind(number, is_linked, touches_walls, is_plain);
 }
 
 /// Tells the core how a rigid body turns, as far as it tells others (core::Ghosts).
@@ -61,14 +62,17 @@ void EventProcessor::note_reports(std::span<const std::uint32_t> numbers) {
   }
 }
 
-/// A delivered event has changed the contact of two bodies, or of a body and the walls if a == b.
-void EventProcessor::note_link_change(std::uint32_t a, std::uint32_t b) {
-  known_.forget(a, b);
-  for (const std::uint32_t number : {a, b}) {
-    if (!core().contains(number)) continue;
-    set_kind_in_core(number);
-    linked_.push_back(number);
+/// Delivered events have changed the contacts of pairs, or of bodies and the walls. Adds them to round_.
+void EventProcessor::note_changed_contacts() {
+  for (const auto& [a, b] : events_.changed()) {
+    known_.forget(a, b);
+    for (const std::uint32_t number : {a, b}) {
+      if (!core().contains(number)) continue;
+      set_kind_in_core(number);
+      round_.push_back(number);
+    }
   }
+  events_.changed().clear();
 }
 
 /// Tells the core of the bodies that have changed, and of those whose contacts have.
@@ -83,13 +87,11 @@ void EventProcessor::settle_core() {
     set_kind_in_core(number);
     note_rotation(number);
     body.mark_recertified();
+    ++counters_of(number).restarts;
   }
-  for (const std::uint32_t number : round_) ++counters_of(number).restarts;
   dirty_.clear();
-  round_.insert(round_.end(), linked_.begin(), linked_.end());
-  linked_.clear();
-  std::sort(round_.begin(), round_.end());
-  round_.erase(std::unique(round_.begin(), round_.end()), round_.end());
+  note_changed_contacts();
+  make_ascending(round_);
   std::erase_if(round_, [this](std::uint32_t number) { return !core().contains(number); });
   core().settle(round_, *this);
 }

@@ -4,12 +4,20 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "bodies/bodies.hpp"
 
 namespace kinesphere {
+
+/// Sorts numbers in ascending order, and removes those that repeat. Most have been in order before.
+inline void make_ascending(std::vector<std::uint32_t>& numbers) {
+  if (std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal()) == numbers.end()) return;
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
 
 /// Contains all dirty bodies in the order in which they became dirty, and possibly some that are no longer
 /// dirty.
@@ -31,10 +39,7 @@ class DirtyList {
   /// Sorts the list in ascending order and removes duplicates and bodies that are not dirty. Returns the
   /// list. Cost: O(n log n).
   const std::vector<std::uint32_t>& sort(const Bodies& bodies) {
-    if (numbers_.size() > 1) {
-      std::sort(numbers_.begin(), numbers_.end());
-      numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
-    }
+    make_ascending(numbers_);
     std::erase_if(numbers_, [&](std::uint32_t number) { return !bodies[number].dirty; });
     return numbers_;
   }

@@ -75,7 +75,8 @@ Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, Probe
   note_probes(numbers, cause);
   const auto broken = reports_.take(bodies(), time_, numbers);
   if (!broken) return broken.error();
-  note_reports(numbers);
+  // What has changed is told to the core as a whole.
+  if (cause != ProbeCause::change) note_reports(numbers);
   for (const auto& [k, velocity, violation, acceleration_limit] : *broken) {
     Sphere reported = sphere(numbers[k]);
     reported.state.velocity = velocity;
@@ -171,26 +172,12 @@ void EventProcessor::note_response() {
   events_.note_response(contacts(), [this](std::uint32_t number) { return sphere(number); });
 }
 
-void EventProcessor::recertify_changed() {
-  note_response();
-  auto& changed = events_.changed();
-  while (!changed.empty()) {
-    const auto [a, b] = changed.back();
-    note_link_change(a, b);
-    changed.pop_back();
-  }
-}
-
 Result<void> EventProcessor::recertify_all() {
-  recertify_changed();
+  note_response();
   // Reports can violate bounds, which makes further bodies dirty.
-  while (!dirty_.empty()) {
+  do {
     if (auto recertified = recertify_dirty(); !recertified) return recertified;
-  }
-  if (!linked_.empty()) {
-    round_.clear();
-    settle_core();
-  }
+  } while (!dirty_.empty());
   return {};
 }
 

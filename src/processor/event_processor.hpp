@@ -78,14 +78,12 @@ class alignas(128) EventProcessor final : public core::Host {
   /// While no event is known, continues with the next instants, up to `until` and before the next spot check.
   /// Errors: those of probe() and note_instant().
   Result<void> gather(double until);
-  /// Notes the bodies whose contacts were changed by delivered events, to be recertified.
-  void recertify_changed();
   /// Recertifies all changed pairs and dirty bodies; afterwards the invariant holds. Errors: those of
   /// probe().
   Result<void> recertify() { return is_recertified() ? Result<void>() : recertify_all(); }
   /// Returns true if recertify() would do nothing.
   bool is_recertified() const {
-    return events_.changed().empty() && dirty_.empty() && linked_.empty() && !events_.awaits_response();
+    return events_.changed().empty() && dirty_.empty() && !events_.awaits_response();
   }
   /// Returns the next event of this instant, or nullopt if there is none.
   std::optional<Event> pop();
@@ -127,14 +125,10 @@ class alignas(128) EventProcessor final : public core::Host {
 
   /// Serializes all fields of a snapshot.
   static void serialize(auto& self, auto& archive) {
-    archive(self.events_, self.time_, self.dirty_, self.gathering_, self.counters_, self.known_,
-            self.linked_);
+    archive(self.events_, self.time_, self.dirty_, self.gathering_, self.counters_, self.known_);
   }
   /// Validates what was read from bytes of pairs that are near.
-  bool knows_valid_times() const {
-    const auto is_known = [this](std::uint32_t number) { return number < bodies().numbers(); };
-    return known_.is_valid(bodies().numbers()) && std::all_of(linked_.begin(), linked_.end(), is_known);
-  }
+  bool knows_valid_times() const { return known_.is_valid(bodies().numbers()); }
   std::size_t bytes() const;
 
   /// Enters a body that is known by the core from now on, but has no neighbours before it is recertified.
@@ -159,7 +153,7 @@ class alignas(128) EventProcessor final : public core::Host {
   void note_rotation(std::uint32_t number);
   void settle_core();
   void note_reports(std::span<const std::uint32_t> numbers);
-  void note_link_change(std::uint32_t a, std::uint32_t b);
+  void note_changed_contacts();
   double keep_time(std::uint32_t a, std::uint32_t b, const std::optional<double>& until, double end);
   std::span<const std::uint32_t> linked_with(std::uint32_t ball) override;
   std::size_t keep_partners(std::uint32_t ball, std::span<std::uint32_t> others) override;
@@ -210,8 +204,7 @@ class alignas(128) EventProcessor final : public core::Host {
   Counters counters_;
   Counters of_ghosts_;  ///< work on ghosts of a rank's part
   Reports reports_;
-  PairTimes known_;                    ///< of pairs that are near
-  std::vector<std::uint32_t> linked_;  ///< bodies whose contacts have changed
+  PairTimes known_;  ///< of pairs that are near
   // Members only to reuse their memory.
   std::vector<std::uint32_t> round_, partners_;
 };

@@ -92,7 +92,10 @@ std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& pr
   if (const auto next_check = predictor.next_check_if_apart()) return next_check;
   Event current = event_now();
   ContactDecision decision = predictor.decide(current, limits);
-  if (decision.change == ContactRule::Change::begin && !threshold.sensed && contacts().is_jammed(current))
+  // A begin that has an end is told before it: two that have been let through would end what never began.
+  const bool may_wait = threshold.within || !wants_ends(threshold.wanted);
+  if (decision.change == ContactRule::Change::begin && !threshold.sensed && may_wait &&
+      contacts().is_jammed(current))
     return defer(predictor, threshold, current, limits, work);
   if (decision.is_event()) {
     current.kind = kind_of(decision.change, threshold.sensed, current.wall);

@@ -171,9 +171,11 @@ void Reports::ask_rotations(const Bodies& bodies, double time) {
 /// Returns the index of the first invalid report, or the number of reports if all are valid.
 std::size_t Reports::first_bad(const Bodies& bodies, double time, PoolLease& lease) const {
   std::size_t first = ids_.size();
+  const bool are_balls = !bodies.rigid.any() && !bodies.radii.any();
   std::mutex mutex;
   lease.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     for (std::size_t k = from; k < to; ++k) {
+      if (are_balls && is_valid_report(states_[k], bodies.definition())) continue;
       if (check(bodies, time, k)) continue;
       const std::lock_guard lock(mutex);
       first = std::min(first, k);
@@ -198,56 +200,80 @@ Result<void> Reports::check(const Bodies& bodies, double time, std::size_t k) co
 }
 
 void Reports::apply_all(Bodies& bodies, double time, PoolLease& lease) {
-  PoolLease alone;
+  // Few of many pending changes are removed one by one.
+  const bool are_many = 8 * ids_.size() >= bodies.changes.size();
   std::mutex mutex;
-  // Pending changes are in a table shared by all bodies, so applying them is not thread-safe.
-  (bodies.changes.empty() ? lease : alone)
-      .parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
-        std::vector<Violation> some;
-        apply(bodies, time, from, to, some);
-        if (some.empty()) return;
-        const std::lock_guard lock(mutex);
-        violations_.insert(violations_.end(), some.begin(), some.end());
-      });
+  lease.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    std::vector<Violation> some;
+    for (std::size_t k = from; k < to; ++k) {
+      if (!apply_plain(bodies, time, k)) apply(bodies, time, k, some);
+      if (are_many) bodies.release_change(bodies.table().number_of(ids_[k]));
+    }
+    if (some.empty()) return;
+    const std::lock_guard lock(mutex);
+    violations_.insert(violations_.end(), some.begin(), some.end());
+  });
+  if (are_many)
+    bodies.drop_released_changes();
+  else
+    for (const BodyId id : ids_) bodies.forget_change(bodies.table().number_of(id));
   std::sort(violations_.begin(), violations_.end(),
             [](const Violation& a, const Violation& b) { return a.k < b.k; });
 }
 
-void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t to,
-                    std::vector<Violation>& broken) const {
-  for (std::size_t k = from; k < to; ++k) {
-    const std::uint32_t number = bodies.table().number_of(ids_[k]);
-    Body& body = bodies[number];
-    State state = states_[k];
-    move_to_nearest_image(bodies.space(), body.bound, time, state);
-    const bool changes_size = bodies.radii.find(number) != nullptr;
-    const Bound before = changes_size ? centre_bound(body, bodies.velocity_error(number)) : body.bound;
-    if (changes_size) bodies.update_radius(number, time);
-    std::optional<Vec3> new_velocity;
-    // A caller that has just changed the body has said what its limits are.
-    const bool adopts =
-        bodies.definition().adopt_observed_limits && body.change_number == Body::none && !body.is_sleeping();
-    if (const Change* change = bodies.changes.find(bodies[number])) {
-      new_velocity = change->velocity;
-      body.bound = bound_of(bodies.definition_of(number), state, time);
-      bodies.forget_change(number);
-    } else {
-      restart(body.bound, time, state);
-      if (changes_size) body.bound.radius = body.radius + body.position_error;
-    }
-    const Bound after = changes_size ? centre_bound(body, bodies.velocity_error(number)) : body.bound;
-    const double radius = changes_size ? 0.0 : body.radius;
-    std::optional<BoundViolation> violation;
-    if (body.is_rigid) violation = turn(bodies.rigid[body], body, before, k);
-    if (new_velocity || before.radius != after.radius ||
-        !certainly_keeps(before, time, {after.position, after.velocity}, radius))
-      violation = sum_of(violation, bound_violation(before, after, radius, new_velocity,
-                                                    bodies.definition().contact_tolerance));
-    if (violation && adopts) adopt(bodies, body, before, after, radius);
-    if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, after);
-    if (body.is_sleeping()) body.stand_still();
-    if (violation) broken.push_back({k, states_[k].velocity, *violation, body.bound.acceleration_limit});
+/// Applies a report that keeps the limits of the body, and at most gives the velocity that the caller has set
+/// just so. Returns false, and changes nothing, if that is not certain.
+bool Reports::apply_plain(Bodies& bodies, double time, std::size_t k) const {
+  const std::uint32_t number = bodies.table().number_of(ids_[k]);
+  Body& body = bodies[number];
+  if (body.is_rigid || body.is_sleeping() || profile_ != nullptr || bodies.radii.find(number) != nullptr)
+    return false;
+  State state = states_[k];
+  move_to_nearest_image(bodies.space(), body.bound, time, state);
+  State expected = state;
+  if (const Change* const change = bodies.changes.find(body)) {
+    if (change->velocity != state.velocity || change->limits != bodies.bound_limits_of(number)) return false;
+    expected.velocity = body.bound.velocity_at(time);
   }
+  if (!certainly_keeps(body.bound, time, expected, body.radius)) return false;
+  restart(body.bound, time, state);
+  return true;
+}
+
+/// Applies a report. Adds to `broken` what it proves to be untrue.
+void Reports::apply(Bodies& bodies, double time, std::size_t k, std::vector<Violation>& broken) const {
+  const std::uint32_t number = bodies.table().number_of(ids_[k]);
+  Body& body = bodies[number];
+  State state = states_[k];
+  move_to_nearest_image(bodies.space(), body.bound, time, state);
+  const bool changes_size = bodies.radii.find(number) != nullptr;
+  double velocity_error = bodies.velocity_error(number);
+  const Bound before = changes_size ? centre_bound(body, velocity_error) : body.bound;
+  if (changes_size) bodies.update_radius(number, time);
+  std::optional<Vec3> new_velocity;
+  // A caller that has just changed the body has said what its limits are.
+  const bool adopts =
+      bodies.definition().adopt_observed_limits && body.change_number == Body::none && !body.is_sleeping();
+  if (const Change* change = bodies.changes.find(body)) {
+    new_velocity = change->velocity;
+    velocity_error = change->limits.velocity_error;
+    body.bound = bodies.changed_bound(number, state, time);
+  } else {
+    restart(body.bound, time, state);
+    if (changes_size) body.bound.radius = body.radius + body.position_error;
+  }
+  const Bound after = changes_size ? centre_bound(body, velocity_error) : body.bound;
+  const double radius = changes_size ? 0.0 : body.radius;
+  std::optional<BoundViolation> violation;
+  if (body.is_rigid) violation = turn(bodies.rigid[body], body, before, k);
+  if (new_velocity || before.radius != after.radius ||
+      !certainly_keeps(before, time, {after.position, after.velocity}, radius))
+    violation = sum_of(violation, bound_violation(before, after, radius, new_velocity,
+                                                  bodies.definition().contact_tolerance));
+  if (violation && adopts) adopt(bodies, body, before, after, radius);
+  if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, after);
+  if (body.is_sleeping()) body.stand_still();
+  if (violation) broken.push_back({k, states_[k].velocity, *violation, body.bound.acceleration_limit});
 }
 
 /// Raises the acceleration limit of a body whose report has broken it to what explains the report.

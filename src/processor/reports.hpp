@@ -57,8 +57,8 @@ class Reports {
   Result<void> check(const Bodies& bodies, double time, std::size_t k) const;
   void ask_rotations(const Bodies& bodies, double time);
   void apply_all(Bodies& bodies, double time, PoolLease& lease);
-  void apply(Bodies& bodies, double time, std::size_t from, std::size_t to,
-             std::vector<Violation>& broken) const;
+  bool apply_plain(Bodies& bodies, double time, std::size_t k) const;
+  void apply(Bodies& bodies, double time, std::size_t k, std::vector<Violation>& broken) const;
   static void adopt(const Bodies& bodies, Body& body, const Bound& before, const Bound& after, double radius);
   std::optional<BoundViolation> turn(RigidRecord& record, const Body& body, const Bound& before,
                                      std::size_t k) const;

@@ -86,7 +86,9 @@ Result<void> World::Preconditions::mobile(BodyId body) const {
 }
 
 Result<void> World::Preconditions::can_turn(BodyId body) const {
-  auto valid = known(body);
+  auto valid = exists();
+  if (!valid || may_turn(body)) return valid;
+  valid = known(body);
   if (valid) valid = is_moving(body);
   return valid ? is_enabled(body, true) : valid;
 }

@@ -39,6 +39,12 @@ class World::Preconditions {
   Result<void> known(BodyId body) const;
   /// Returns true if known() holds. Precondition: exists().
   bool is_known(BodyId body) const { return !is_foreign(body) && engine_->bodies().table().is_alive(body); }
+  /// Returns true if can_turn() holds, as it nearly always does. Precondition: exists().
+  bool may_turn(BodyId body) const {
+    if (!is_known(body)) return false;
+    const Body& record = engine_->bodies()[body.index];
+    return record.enabled && !record.is_static();
+  }
   /// The world is idle, and the body is known.
   Result<void> changeable(BodyId body) const;
   /// The body is changeable, and enabled or disabled as requested.

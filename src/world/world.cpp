@@ -146,7 +146,7 @@ Result<void> World::set_velocities(std::span<const BodyId> bodies, std::span<con
                 "must have one entry per body,", bodies.size(), velocities.size());
   if (check.error()) return *check.error();
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (auto valid = preconditions.mobile(bodies[k]); !valid) return valid;
+    if (auto valid = preconditions.can_turn(bodies[k]); !valid) return valid;
     if (auto valid = check_velocity(velocities[k], bodies[k], engine_->definition(), call); !valid)
       return valid;
   }

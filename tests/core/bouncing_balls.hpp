@@ -123,7 +123,7 @@ class BouncingBalls final : core::Host {
   void enter(std::uint32_t number) {
     truth.balls[number].present = true;
     core_.enter(number, bound(number), false, true);
-    core_.set_kind(number, false, true);
+    core_.set_kind(number, false, false, true);
     note_change(number);
   }
   void leave(std::uint32_t number) {

@@ -308,7 +308,7 @@ class TwoBalls final : public QuietHost {
     for (const std::uint32_t number : {0u, 1u}) {
       core.enter(number, {.position = {2.0625 * number, 0, 0}, .velocity = {1, 0, 0}, .radius = 1.0}, false,
                  false);
-      core.set_kind(number, !are_neighbours, true);
+      core.set_kind(number, !are_neighbours, false, true);
     }
     core.settle(partners_, *this);
   }
@@ -344,7 +344,7 @@ class BallAtAWall final : public QuietHost {
  public:
   BallAtAWall() : QuietHost(with_walls()) {
     core.enter(0, {.position = place_, .radius = 1.0, .acceleration_limit = 0.5}, false, true);
-    core.set_kind(0, false, true);
+    core.set_kind(0, false, false, true);
     settle(0);
   }
 

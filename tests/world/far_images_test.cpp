@@ -159,5 +159,24 @@ TEST(FarImages, FarAwayOnAnAxisThatDoesNotRepeat) {
   EXPECT_LT(p.world.counters().starts, 2000u);
 }
 
+/// Reports may move a bound out of the region in which the truth stays. The lengths are those of the proof in
+/// docs/guarantee.md: whatever the reports say, two bodies are looked at in the image in which they can meet.
+TEST(FarImages, RegionsLeaveRoomForTheErrorsOfReports) {
+  constexpr double period = 3.0;
+  for (const double size : {0.01, 0.1, 0.3, 0.5}) {
+    const double error = (0.375 * period - 2.0 * size - 0.01) / 6.0;
+    Playground p({.box = Box{{0, 0, 0}, {period, period, period}},
+                  .periodic = {true, true, true},
+                  .contact_tolerance = 1e-3});
+    const BodyId body =
+        p.add({.radius = size, .acceleration_limit = 0.1, .position_error = error, .velocity = {1, 0, 0}});
+    p.run(2.0);
+    const Box box = p.world.body(body).value().box;
+    const double region = 0.5 * (box.upper.x - box.lower.x) - size - error;
+    EXPECT_GT(region, 0.0);
+    EXPECT_LE(region, (0.25 * period - (size + error) - 2.0 * error) / 3.0 + 0.002) << size;
+  }
+}
+
 }  // namespace
 }  // namespace kinesphere::far_images_test

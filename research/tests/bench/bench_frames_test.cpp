@@ -66,5 +66,13 @@ TEST_F(BenchFrames, NoFrameDoesMoreThanOneStartOfAllBodies) {
   }
 }
 
+TEST_F(BenchFrames, ACrowdThatIsSteeredStandsBesideAGrid) {
+  bench("frames --only steered");
+  const BenchRows table = BenchTest::table("steered.csv");
+  ASSERT_EQ(table.size(), 1u + 2);
+  for (std::size_t row = 0; row < 2; ++row)
+    for (const char* column : {"grid", "velocities", "push"}) EXPECT_GT(csv_number(table, row, column), 0.0);
+}
+
 }  // namespace
 }  // namespace kinesphere::program::bench_frames_test
