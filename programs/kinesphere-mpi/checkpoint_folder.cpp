@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -13,6 +14,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
@@ -71,6 +73,18 @@ void write_to_disk(const std::string& path, const char* bytes, std::size_t size)
 
 /// Flushes created, renamed and deleted entries of a folder to the disk.
 void sync_folder(const std::string& path) { Descriptor(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC).sync(); }
+
+/// Keeps others from the folder until the result is gone, which the system sees to if the process is killed.
+/// Some file systems have no locks of folders; there nothing is kept.
+std::shared_ptr<void> locked(const std::string& folder) {
+  const int number = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (number < 0) fail(folder, "read", errno);
+  std::shared_ptr<void> lock(nullptr, [number](void*) { ::close(number); });
+  if (::flock(number, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw ProgramError(
+        fmt::format("--checkpoint: expected a folder of this run alone, but another one uses {}", folder));
+  return lock;
+}
 
 std::string checksum_line(const std::string& text) {
   const auto sum =
@@ -153,6 +167,7 @@ std::vector<std::uint64_t> numbers_in(const std::string& folder) {
 CheckpointFolder::CheckpointFolder(const Ranks& ranks, std::string folder)
     : ranks_(ranks), folder_(std::move(folder)) {
   ranks_.on_first(1, [this] { fs::create_directories(folder_); });
+  ranks_.on_first(exit_wrong_input, [this] { lock_ = locked(folder_); });
   const std::vector<std::uint64_t> numbers = latest();
   if (!numbers.empty()) next_ = numbers.front() + 1;
 }

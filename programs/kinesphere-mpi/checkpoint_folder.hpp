@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ class CheckpointFolder {
  public:
   using Part = std::vector<std::byte>;
 
+  /// Throws with exit_wrong_input if another run uses the folder.
   CheckpointFolder(const Ranks& ranks, std::string folder);
 
   /// Writes a checkpoint: this rank's part, and `state`, equal on all ranks. It appears under its number once
@@ -54,7 +56,8 @@ class CheckpointFolder {
 
   const Ranks& ranks_;
   std::string folder_;
-  std::uint64_t next_ = 1;  ///< the number of the next one
+  std::uint64_t next_ = 1;      ///< the number of the next one
+  std::shared_ptr<void> lock_;  ///< of the first rank
 };
 
 }  // namespace kinesphere::program

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <map>
 #include <new>
 #include <vector>
 
@@ -26,8 +29,11 @@ void check_options(const DistributedRunOptions& options) {
   if (!options.contacts.empty()) table_format_of(options.contacts);
   if (options.file_per_rank && options.contacts.empty())
     throw ProgramError("--file-per-rank: expected only with --contacts");
-  if (options.every.has_value() != !options.checkpoint.empty())
-    throw ProgramError("--checkpoint and --every: expected both or neither");
+  const bool saves = options.every || options.job.checkpoint_every || options.job.time_limit;
+  if (saves && options.checkpoint.empty())
+    throw ProgramError("--every, --checkpoint-every and --time-limit: expected only with --checkpoint");
+  if (!saves && !options.checkpoint.empty())
+    throw ProgramError("--checkpoint: expected with --every, --checkpoint-every or --time-limit");
   if (options.every && *options.every <= 0.0)
     throw ProgramError(fmt::format("--every: expected a finite number > 0, but got {}", *options.every));
   if (options.resume && options.checkpoint.empty())
@@ -103,10 +109,10 @@ Preparation prepare(const Ranks& ranks, const DistributedRunOptions& options) {
   return prepared;
 }
 
-void run_scene(const Ranks& ranks, const DistributedRunOptions& options, const Preparation& prepared,
-               DistributedScene& distributed) {
+int run_scene(const Ranks& ranks, const DistributedRunOptions& options, const Preparation& prepared,
+              DistributedScene& distributed) {
   distributed.start();
-  distributed.run();
+  if (!distributed.run()) return exit_unfinished;
   const std::vector<RankUse> use = ranks.gather(distributed.use());
   const RunTotals totals = distributed.totals();
   // A full disk must not suppress the summary.
@@ -125,6 +131,23 @@ void run_scene(const Ranks& ranks, const DistributedRunOptions& options, const P
     finish_output();
   });
   if (failure) throw SharedError(*failure);
+  return exit_fine;
+}
+
+/// Tells of processes that belong together, as whoever started them says, and have not found each other: each
+/// would simulate the whole scene, and write over what the others write.
+void tell_if_alone(const Ranks& ranks) {
+  if (ranks.count() > 1) return;
+  for (const char* const name : {"SLURM_STEP_NUM_TASKS", "PMI_SIZE", "PMIX_SIZE", "OMPI_COMM_WORLD_SIZE"}) {
+    const char* const tasks = std::getenv(name);
+    if (tasks == nullptr || std::atoi(tasks) <= 1) continue;
+    fmt::print(
+        stderr,
+        "kinesphere-mpi: this process is alone, but {} says {}: the others simulate the same scene; start "
+        "them by mpirun, or by srun --mpi=pmix\n",
+        name, tasks);
+    return;
+  }
 }
 
 /// Other ranks may be waiting for this one, so this ends all of them.
@@ -151,6 +174,21 @@ CLI::App* add_distributed_run_command(CLI::App& program, DistributedRunOptions& 
                    "Save the world to this folder from time to time; the last two checkpoints are kept")
       ->type_name("FOLDER");
   command->add_option("--every", options.every, "Simulated time between checkpoints")->check(finite_number());
+  const auto add_duration = [&](const char* name, std::optional<double>& seconds, const char* description) {
+    command->add_option(name, seconds, description)
+        ->type_name("DURATION")
+        ->transform(CLI::AsNumberWithUnit(
+            std::map<std::string, double>{{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}}))
+        ->check(CLI::PositiveNumber);
+  };
+  add_duration("--checkpoint-every", options.job.checkpoint_every,
+               "Real time between checkpoints, such as 30min");
+  add_duration(
+      "--time-limit", options.job.time_limit,
+      "Stop after this real time, such as 23.5h, with a checkpoint and exit code 75; so do SIGTERM and "
+      "SIGUSR1");
+  add_duration("--progress", options.job.progress_every,
+               "The first rank says on stderr how far the run has come, each time after this real time");
   command->add_flag(
       "--resume", options.resume,
       "Go on from the newest checkpoint in FOLDER, on any number of ranks; from the start where "
@@ -160,18 +198,22 @@ CLI::App* add_distributed_run_command(CLI::App& program, DistributedRunOptions& 
   return command;
 }
 
-void distributed_run(const MpiSession& session, const DistributedRunOptions& options) {
+int distributed_run(const MpiSession& session, const DistributedRunOptions& options) {
   const Ranks ranks;
+  tell_if_alone(ranks);
+  JobLimits limits = options.job;
+  limits.heeds_signals = !options.checkpoint.empty();
+  JobClock clock(ranks, limits);
   Preparation prepared = prepare(ranks, options);
   DistributedScene distributed(ranks, prepared.scene,
                                {.scene_text = scene_text(prepared.source.parameters),
                                 .contacts = prepared.contacts,
                                 .checkpoint_folder = options.checkpoint,
-                                .checkpoint_interval = options.every.value_or(0.0),
+                                .checkpoint_interval = options.every,
                                 .resume = options.resume},
-                               prepared.workers ? &*prepared.workers : nullptr);
+                               clock, prepared.workers ? &*prepared.workers : nullptr);
   try {
-    run_scene(ranks, options, prepared, distributed);
+    return run_scene(ranks, options, prepared, distributed);
   } catch (const SharedError&) {
     throw;
   } catch (const std::bad_alloc&) {

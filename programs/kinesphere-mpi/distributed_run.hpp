@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "job_clock.hpp"
 #include "kinesphere/distributed/mpi_session.hpp"
 #include "scenes/scene_options.hpp"
 
@@ -17,6 +18,7 @@ struct DistributedRunOptions {
   bool file_per_rank = false;
   std::string checkpoint;
   std::optional<double> every;
+  JobLimits job;
   bool resume = false;
   bool hash_only = false;
   bool quiet = false;
@@ -24,8 +26,9 @@ struct DistributedRunOptions {
 
 /// `options` must live until the command line has been parsed.
 CLI::App* add_distributed_run_command(CLI::App& program, DistributedRunOptions& options);
-/// Collective. Throws SharedError. An error of one rank, for which others may be waiting, ends the program on
-/// all ranks at once.
-void distributed_run(const MpiSession& session, const DistributedRunOptions& options);
+/// Collective. Returns the exit code: exit_unfinished if the run has stopped with a checkpoint before its
+/// end. Throws SharedError. An error of one rank, for which others may be waiting, ends the program on all
+/// ranks at once.
+int distributed_run(const MpiSession& session, const DistributedRunOptions& options);
 
 }  // namespace kinesphere::program

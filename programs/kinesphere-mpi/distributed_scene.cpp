@@ -25,6 +25,8 @@ namespace {
 /// one before. It limits the memory of events to a few times this number.
 constexpr std::uint64_t events_of_a_slice = 1 << 16;
 constexpr double slices_at_first = 1000.0;
+/// Real time between two looks at the clock: a batch system lets a run live on for seconds after SIGTERM.
+constexpr double seconds_of_a_slice = 0.25;
 
 /// Returns the first different lines of two scene texts.
 std::pair<std::string, std::string> first_difference(const std::string& a, const std::string& b) {
@@ -40,10 +42,11 @@ std::pair<std::string, std::string> first_difference(const std::string& a, const
 }  // namespace
 
 DistributedScene::DistributedScene(const Ranks& ranks, const Scene& scene, DistributedSceneOptions options,
-                                   Workers* workers)
+                                   JobClock& clock, Workers* workers)
     : ranks_(ranks),
       scene_(scene),
       options_(std::move(options)),
+      clock_(clock),
       workers_(workers),
       slice_((scene.end_time - scene.world.start_time) / slices_at_first) {}
 
@@ -124,7 +127,7 @@ std::optional<RunState> DistributedScene::resume() {
       continue;
     }
     for (const std::uint64_t bad : refused) checkpoints_->set_aside(bad);
-    resumed_at_ = state.time;
+    resumed_at_ = saved_at_ = state.time;
     return state;
   }
   throw SharedError(fmt::format("{}: expected a checkpoint that a run can go on from, but none is",
@@ -174,40 +177,75 @@ void DistributedScene::tell_first(const std::string& message) const {
   if (ranks_.is_first()) fmt::print(stderr, "kinesphere-mpi: {}\n", message);
 }
 
-void DistributedScene::run() {
+bool DistributedScene::run() {
   started_ = std::chrono::steady_clock::now();
   const auto respond = [this](const Event& event) { return scene_answer(scene_, event); };
   const auto sink = [this](const OrderedEvent& event) { contacts_->note(event); };
-  for (bool goes_on = true; goes_on;) {
+  bool is_stopped = false;
+  for (bool goes_on = true; goes_on && !is_stopped;) {
     const double checkpoint = next_checkpoint();
     const double now = world_->time();
     double stop = std::min(scene_.end_time, checkpoint);
-    if (contacts_->waits())
+    if (contacts_->waits() || clock_.is_watched())
       stop = std::min(stop, std::max(now + slice_, std::nextafter(now, scene_.end_time)));
+    const double began = clock_.elapsed();
     require_shared(world_->run(stop, respond, sink, workers_), 1);
-    if (contacts_->waits()) {
-      choose_slice(contacts_->most_waiting());
-      contacts_->write_noted();
-    }
+    if (contacts_->waits() || clock_.is_watched()) choose_slice(clock_.elapsed() - began);
+    if (contacts_->waits()) contacts_->write_noted();
     goes_on = stop < scene_.end_time;
-    if (checkpoints_ && (stop == checkpoint || (!goes_on && stop > now))) save();
+    const JobClock::Wishes wishes = clock_.look();
+    is_stopped = wishes.stop && goes_on;
+    if (checkpoints_ && stop > saved_at_ &&
+        (stop == checkpoint || is_stopped || wishes.checkpoint || (!goes_on && stop > now)))
+      save();
+    if (wishes.progress) tell_progress();
   }
   real_time_ = std::chrono::steady_clock::now() - started_;
+  if (is_stopped)
+    tell_first(fmt::format("stopped at {} of {} s, with a checkpoint in {}; --resume goes on", world_->time(),
+                           scene_.end_time, options_.checkpoint_folder));
+  return !is_stopped;
+}
+
+/// The first rank says how far the run has come, and how evenly ranks work.
+void DistributedScene::tell_progress() const {
+  const RankUse own = use();
+  double mean = 0.0, most = 0.0;
+  for (const double work : ranks_.gather(own.processor_seconds - own.figures.seconds_in_mpi)) {
+    mean += work / ranks_.count();
+    most = std::max(most, work);
+  }
+  const double begin = resumed_at_.value_or(scene_.world.start_time);
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - started_;
+  const double rate = (world_->time() - begin) / passed.count();
+  tell_first(fmt::format(
+      "{:.6g} of {:.6g} s simulated, {:.3g} a second, the rest in about {:.0f} s; the busiest rank "
+      "works {:.2f} times the mean",
+      world_->time(), scene_.end_time, rate, (scene_.end_time - world_->time()) / rate,
+      mean > 0.0 ? most / mean : 1.0));
 }
 
 /// Returns the next multiple of the interval, counted from the start.
 double DistributedScene::next_checkpoint() const {
-  if (!checkpoints_) return std::numeric_limits<double>::infinity();
+  if (!checkpoints_ || !options_.checkpoint_interval) return std::numeric_limits<double>::infinity();
   const double start = scene_.world.start_time;
-  const double interval = options_.checkpoint_interval;
+  const double interval = *options_.checkpoint_interval;
   double count = std::floor((world_->time() - start) / interval);
   while (start + count * interval <= world_->time()) ++count;
   return start + count * interval;
 }
 
-void DistributedScene::choose_slice(std::uint64_t most_events) {
-  const double longer =
-      static_cast<double>(events_of_a_slice) / static_cast<double>(std::max<std::uint64_t>(most_events, 1));
+/// Chooses the next slice from what the last one has taken (seconds) and told.
+void DistributedScene::choose_slice(double seconds) {
+  double longer = 2.0;
+  if (contacts_->waits()) {
+    const std::uint64_t most = std::max<std::uint64_t>(contacts_->most_waiting(), 1);
+    longer = std::min(longer, static_cast<double>(events_of_a_slice) / static_cast<double>(most));
+  }
+  if (clock_.is_watched()) {
+    const std::uint64_t slowest = ranks_.largest(static_cast<std::uint64_t>(1e6 * seconds) + 1);
+    longer = std::min(longer, 1e6 * seconds_of_a_slice / static_cast<double>(slowest));
+  }
   slice_ *= std::clamp(longer, 0.5, 2.0);
 }
 
@@ -220,6 +258,7 @@ void DistributedScene::save() {
                  .contacts = options_.contacts.output};
   state.contact_lengths = contacts_->sync();
   checkpoints_->write(part, state);
+  saved_at_ = state.time;
 }
 
 RankUse DistributedScene::use() const {

@@ -46,8 +46,7 @@ int main(const MpiSession& session, int argc, char** argv) {
     return complain(session, fmt::format("{} (see --help)", error.what()), exit_wrong_input);
   }
   if (!*run_command) return complain(session, "expected a command: run (see --help)", exit_wrong_input);
-  distributed_run(session, run_options);
-  return exit_fine;
+  return distributed_run(session, run_options);
 }
 
 }  // namespace

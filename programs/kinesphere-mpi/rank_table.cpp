@@ -14,7 +14,7 @@
 namespace kinesphere::program {
 namespace {
 
-using Line = std::array<std::string, 10>;
+using Line = std::array<std::string, 11>;
 
 std::string megabytes(std::uint64_t bytes) {
   return fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes));
@@ -33,6 +33,7 @@ Line line_of(std::string name, const RankUse& use) {
           grouped(figures.rounds),
           seconds(use.processor_seconds),
           seconds(use.processor_seconds - figures.seconds_in_mpi),
+          seconds(figures.seconds_in_mpi),
           megabytes(use.largest_memory)};
 }
 
@@ -70,7 +71,7 @@ std::uint64_t largest_memory() {
 
 std::string rank_table(std::span<const RankUse> ranks) {
   std::vector<Line> lines{{"rank", "bodies", "ghosts", "sent", "messages", "slabs", "tries", "processor",
-                           "without MPI", "memory"}};
+                           "without MPI", "in MPI", "memory"}};
   for (std::size_t rank = 0; rank < ranks.size(); ++rank)
     lines.push_back(line_of(std::to_string(rank), ranks[rank]));
   if (ranks.size() > 1) lines.push_back(line_of("all", sum_of(ranks)));

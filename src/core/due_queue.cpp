@@ -176,8 +176,8 @@ void DueQueue::choose_width(std::span<const Ball> balls, double now) {
 }
 
 void DueQueue::refill(std::span<const Ball> balls, double now) {
-  const auto buckets = static_cast<std::uint64_t>(static_cast<double>(balls.size()) / wanted);
-  heads_.assign(std::bit_ceil(std::max<std::uint64_t>(buckets, 256)), none);
+  const auto buckets = static_cast<std::size_t>(static_cast<double>(balls.size()) / wanted);
+  heads_.assign(std::bit_ceil(std::max<std::size_t>(buckets, 256)), none);
   choose_width(balls, now);
   origin_ = now;
   bucket_ = adapted_ = taken_ = stored_ = 0;

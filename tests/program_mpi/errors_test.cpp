@@ -19,7 +19,8 @@ TEST_F(MpiProgramErrors, OfOptions) {
   expect_one_message(run_mpi(3, "run nowhere"), 2, "'nowhere' is neither a file nor a built-in scene");
   expect_one_message(run_mpi(2, "run paper1 --contacts all.txt"), 2, "ends in .csv or .jsonl");
   expect_one_message(run_mpi(1, "run paper1 --file-per-rank"), 2, "--file-per-rank: expected only with");
-  expect_one_message(run_mpi(2, "run paper1 --every 1"), 2, "--checkpoint and --every");
+  expect_one_message(run_mpi(2, "run paper1 --every 1"), 2,
+                     "--every, --checkpoint-every and --time-limit: expected only with");
   expect_one_message(run_mpi(1, ""), 2, "expected a command");
 }
 

@@ -13,6 +13,7 @@ enum ExitCode : int {
   exit_fine = 0,
   exit_disagreement = 1,  ///< two answers differ that should not, or an audit found something
   exit_wrong_input = 2,
+  exit_unfinished = 75,  ///< stopped as asked, to go on later: EX_TEMPFAIL of sysexits.h
 };
 
 /// The message is one line: where, what was expected and what was found. The exit code is exit_wrong_input.
