@@ -83,7 +83,7 @@ bool Bodies::bodies_are_valid(double now, const std::vector<std::uint32_t>& dirt
 bool Bodies::is_valid(std::uint32_t number, double now) const {
   const Body& body = table_[number];
   if (body.is_static()) return is_valid_static(number, now);
-  if (!sleep_is_valid(body)) return false;
+  if (!sleep_is_valid(body) || (body.turned && (!body.dirty || body.relocated))) return false;
   // A free number has the state that its next body starts with.
   if (!body.alive) return !body.dirty && body.change_number == Body::none;
   WorldDefinition unbounded = definition_;

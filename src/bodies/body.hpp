@@ -25,6 +25,7 @@ struct Body {
   bool enabled = true;
   bool dirty = false;      ///< listed for recertification before time advances
   bool relocated = false;  ///< added, teleported, enabled or refiltered since it was recertified
+  bool turned = false;     ///< nothing but its velocity has changed since it was recertified
   // Fields of BodyDefinition.
   bool solid = true;
   ContactEvents contact_events = ContactEvents::all;  ///< 0 for a static body, which asks for nothing
@@ -57,7 +58,7 @@ struct Body {
     bound.velocity = bound.planned_acceleration = {};
     bound.growth_speed = bound.acceleration_limit = 0.0;
   }
-  void mark_recertified() { dirty = relocated = false; }
+  void mark_recertified() { dirty = relocated = turned = false; }
   /// Returns true if the state at `time` is known without a probe: no change waits for a report.
   bool fresh(double time) const {
     return (bound.time == time || is_static() || is_sleeping()) && change_number == none;
@@ -65,10 +66,10 @@ struct Body {
   double largest_acceleration() const { return bound.acceleration_limit + norm(bound.planned_acceleration); }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [bound, revision, alive, enabled, dirty, relocated, solid, contact_events, sensor_class,
+    auto& [bound, revision, alive, enabled, dirty, relocated, turned, solid, contact_events, sensor_class,
            carries_shape, is_rigid, shape_number, change_number, generation, sleep_number, radius,
            position_error, user_data] = self;
-    archive(bound, revision, alive, enabled, dirty, relocated, solid, contact_events, sensor_class,
+    archive(bound, revision, alive, enabled, dirty, relocated, turned, solid, contact_events, sensor_class,
             carries_shape, is_rigid, shape_number, change_number, generation, sleep_number, radius,
             position_error, user_data);
   }

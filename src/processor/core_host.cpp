@@ -79,15 +79,19 @@ void EventProcessor::note_changed_contacts() {
 void EventProcessor::settle_core() {
   for (const std::uint32_t number : round_) {
     Body& body = bodies()[number];
-    if (body.relocated && core().contains(number)) core().leave(number);
-    if (core().contains(number))
-      core().set_bound(number, extent_of(number));
-    else
-      enter_core(number);
-    set_kind_in_core(number);
-    note_rotation(number);
-    body.mark_recertified();
     ++counters_of(number).restarts;
+    if (body.turned && !body.is_shaped() && !bodies().radii.any() && core().contains(number)) {
+      core().report(number, {body.bound.position, body.bound.velocity});
+    } else {
+      if (body.relocated && core().contains(number)) core().leave(number);
+      if (core().contains(number))
+        core().set_bound(number, extent_of(number));
+      else
+        enter_core(number);
+      set_kind_in_core(number);
+      note_rotation(number);
+    }
+    body.mark_recertified();
   }
   dirty_.clear();
   note_changed_contacts();

@@ -131,6 +131,7 @@ Result<SpotChecks::Census> EventProcessor::spot_check_due(std::span<const std::u
 void EventProcessor::invalidate(std::uint32_t number) {
   events_.outdate();
   ++bodies()[number].revision;
+  bodies()[number].turned = false;
   dirty_.add(bodies(), number);
 }
 
@@ -140,7 +141,9 @@ void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
   if (!body.fresh(time_)) bodies().change_of(number).velocity = velocity;
   // A body with a report of now moves on with it at once, also if it awaits another report, having slept.
   if (body.bound.time == time_) body.bound.velocity = velocity;
+  const bool turns_alone = body.turned || !body.dirty;
   turn_reported(number);
+  body.turned = turns_alone;
 }
 
 void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity) {
@@ -164,7 +167,7 @@ void EventProcessor::detach(std::uint32_t number) {
   events_.drop_woken(bodies().id_of(number));
   Body& body = bodies()[number];
   ++body.revision;
-  body.dirty = body.relocated = false;
+  body.mark_recertified();
   if (core().contains(number)) core().leave(number);
 }
 
