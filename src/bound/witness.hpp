@@ -30,7 +30,7 @@ class Witness {
     const auto with = [&](const Rates& rates) {
       const BoundBesideBound mean = mean_with(rates);
       const double time =
-          earliest_separation(mean.bound, {.time = time_}, time_, until, distance - mean.slack);
+          earliest_separation(mean.bound, Bound{.time = time_}, time_, until, distance - mean.slack);
       return std::min(time, stays_until(rates, until));
     };
     const double fixed = with({});
@@ -39,7 +39,7 @@ class Witness {
   /// Upper limit of the gap at the time of the witness.
   double largest_gap() const {
     const BoundBesideBound mean = mean_with({});
-    return gap_limits(mean.bound, {.time = time_}, time_).upper + mean.slack;
+    return gap_limits(mean.bound, Bound{.time = time_}, time_).upper + mean.slack;
   }
 
  private:
