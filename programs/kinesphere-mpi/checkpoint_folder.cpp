@@ -56,6 +56,8 @@ class Descriptor {
       size -= static_cast<std::size_t>(written);
     }
   }
+  /// Locks it for its lifetime. Returns false if another process has done so.
+  bool lock() { return ::flock(number_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; }
   void sync() {
     if (::fsync(number_) != 0) fail(path_, "write", errno);
   }
@@ -77,10 +79,8 @@ void sync_folder(const std::string& path) { Descriptor(path, O_RDONLY | O_DIRECT
 /// Keeps others from the folder until the result is gone, which the system sees to if the process is killed.
 /// Some file systems have no locks of folders; there nothing is kept.
 std::shared_ptr<void> locked(const std::string& folder) {
-  const int number = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (number < 0) fail(folder, "read", errno);
-  std::shared_ptr<void> lock(nullptr, [number](void*) { ::close(number); });
-  if (::flock(number, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+  const auto lock = std::make_shared<Descriptor>(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (!lock->lock())
     throw ProgramError(
         fmt::format("--checkpoint: expected a folder of this run alone, but another one uses {}", folder));
   return lock;

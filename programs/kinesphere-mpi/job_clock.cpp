@@ -1,5 +1,6 @@
 #include "job_clock.hpp"
 
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -35,14 +36,11 @@ JobClock::~JobClock() {
 JobClock::Wishes JobClock::look() {
   if (!is_watched()) return {};
   const double now = elapsed();
-  constexpr std::uint64_t stop = 1, checkpoint = 2, progress = 4;
-  std::uint64_t wishes = 0;
-  if (was_signalled != 0 || now >= limits_.time_limit.value_or(never)) wishes |= stop;
-  if (now >= next_checkpoint_) wishes |= checkpoint;
-  if (now >= next_progress_) wishes |= progress;
+  const bool stops = was_signalled != 0 || now >= limits_.time_limit.value_or(never);
   // Clocks differ, and a signal reaches some ranks first: one that wishes is enough.
-  const auto any_wishes = [&](std::uint64_t wish) { return ranks_.largest(wishes & wish) != 0; };
-  const Wishes shared{any_wishes(stop), any_wishes(checkpoint), any_wishes(progress)};
+  std::array<std::uint64_t, 3> wishing{stops, now >= next_checkpoint_, now >= next_progress_};
+  ranks_.sum(wishing);
+  const Wishes shared{wishing[0] > 0, wishing[1] > 0, wishing[2] > 0};
   if (shared.checkpoint) next_checkpoint_ = now + *limits_.checkpoint_every;
   if (shared.progress) next_progress_ = now + *limits_.progress_every;
   return shared;

@@ -29,7 +29,7 @@ enum class SteeringBy : std::uint8_t {
 
 struct SteeredFrames {
   std::vector<double> seconds{};  ///< CPU time of each frame, without that of the crowd itself
-  /// Those that met, each pair once and in ascending order: it may be that they do no more.
+  /// Those that met at some time, each pair once and in ascending order.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs{};
 };
 
