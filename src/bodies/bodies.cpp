@@ -82,18 +82,21 @@ Bound Bodies::changed_bound(std::uint32_t number, const State& state, double tim
 }
 
 void Bodies::forget_change(std::uint32_t number) {
-  if (ChangingRadius* const changing = radii.find(number))
-    if (const Change* const change = changes.find(table_[number]))
-      changing->velocity_error = change->limits.velocity_error;
+  take_velocity_error(number);
   changes.remove(table_, number);
 }
 
 void Bodies::release_change(std::uint32_t number) {
-  Body& body = table_[number];
-  if (body.change_number == Body::none) return;
+  if (table_[number].change_number == Body::none) return;
+  take_velocity_error(number);
+  changes.release(table_[number]);
+}
+
+/// A radius that changes has the velocity error beside the bound, which holds both.
+void Bodies::take_velocity_error(std::uint32_t number) {
   if (ChangingRadius* const changing = radii.find(number))
-    changing->velocity_error = changes[body].limits.velocity_error;
-  changes.release(body);
+    if (const Change* const change = changes.find(table_[number]))
+      changing->velocity_error = change->limits.velocity_error;
 }
 
 void Bodies::set_radius_law(std::uint32_t number, double radius, double rate, double now) {

@@ -166,6 +166,7 @@ class Bodies {
 
  private:
   std::uint32_t describe(std::uint32_t number, const BodyDefinition& definition, double now);
+  void take_velocity_error(std::uint32_t number);
   bool filters_allow(std::uint32_t a, std::uint32_t b) const;
   bool bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const;
   bool is_valid(std::uint32_t number, double now) const;
