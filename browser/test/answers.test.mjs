@@ -7,7 +7,7 @@ import { kinesphere, refuses } from "./package_under_test.mjs";
 const { Ballistic, BodyMap, load, RecordedTracks, Replay, SteeredMotion, World } = kinesphere;
 await load();
 
-/** Two ships that may turn, 10 apart, at a time when nobody knows any more where they are. */
+/** Two ships that may turn, 10 apart, at a time when nobody has asked them for long: each is within 1.62 of its place. */
 function ships() {
   const motion = new SteeredMotion({ positions: [0, 0, 0, 10, 0, 0] }, { accelerationLimits: 1 });
   const world = new World({ contactTolerance: 1e-3 });
@@ -16,7 +16,7 @@ function ships() {
   world.add({ position: [500, 0, 0], accelerationLimit: 0 });
   const probe = (ids, time, states) =>
     ids.forEach((id, k) => states.set(id < 2 ? motion.states(time, [id]) : [500, 0, 0, 0, 0, 0], 6 * k));
-  for (const _ of world.events(2, probe));
+  for (const _ of world.events(1.8, probe));
   return { world, motion, probe, first, second };
 }
 
@@ -82,22 +82,22 @@ test("what an answer with a probe cannot use is named", () => {
   assert.throws(() => world.rayCast([0, 0, 0], [1, 0, 0], 9, { execpt: 1 }), /rayCast: options has no key execpt; the nearest is except/);
   assert.throws(() => world.rayCast([0, 0, 0], [1, 0, 0], 9, { except: null }), /rayCast: except must not be null/);
   assert.throws(() => world.nearest([0, 0, 0], 1, { filter: { masc: 1 } }), /nearest: filter has no key masc/);
-  assert.throws(() => world.overlapping([0, 0, 0], 1, { probe: 3 }), /overlapping: probe must be a function, a Motion or a BodyMap/);
-  assert.throws(() => world.overlapping([0, 0, 0], 1, probe), /overlapping: options must be an object/);
+  assert.throws(() => world.overlapping([0, 0, 0], 0.5, { probe: 3 }), /overlapping: probe must be a function, a Motion or a BodyMap/);
+  assert.throws(() => world.overlapping([0, 0, 0], 0.5, probe), /overlapping: options must be an object/);
   assert.throws(() => world.safeUntil(first, second, { distanse: 1 }), /nearest is distance/);
   refuses(() => world.safeUntil(first, second, { distance: -1 }), "out_of_range", /distance/);
   refuses(() => world.distanceLimits(first, second, 1), "time_backwards", /time/);
-  refuses(() => world.overlapping([0, 0, 0], 1, { probe: new BodyMap() }), "unknown_body", /not added through this map/);
+  refuses(() => world.overlapping([0, 0, 0], 0.5, { probe: new BodyMap() }), "unknown_body", /not added through this map/);
   const tracks = new RecordedTracks([{ times: [0, 1, 2], positions: [0, 0, 0, 1, 0, 0, 2, 0, 0] }]);
-  refuses(() => world.overlapping([10, 0, 0], 1, { probe: tracks }), "unknown_body", /body/);
-  assert.throws(() => world.overlapping([0, 0, 0], 1, { probe() { throw new Error("mine"); } }), { message: "mine" });
-  assert.throws(() => world.overlapping([0, 0, 0], 1, { probe: () => world.remove(first) }), /probe may not call/);
-  refuses(() => world.overlapping([0, 0, 0], 1, { probe() {} }), "not_finite", /position/);
-  assert.equal(world.clone().overlapping([0, 0, 0], 1, { probe }).length, 1, "the world goes on");
+  refuses(() => world.overlapping([10, 0, 0], 0.5, { probe: tracks }), "unknown_body", /body/);
+  assert.throws(() => world.overlapping([0, 0, 0], 0.5, { probe() { throw new Error("mine"); } }), { message: "mine" });
+  assert.throws(() => world.overlapping([0, 0, 0], 0.5, { probe: () => world.remove(first) }), /probe may not call/);
+  refuses(() => world.overlapping([0, 0, 0], 0.5, { probe() {} }), "not_finite", /position/);
+  assert.equal(world.clone().overlapping([0, 0, 0], 0.5, { probe }).length, 1, "the world goes on");
   world.startRecording();
   const replay = new Replay(world.stopRecording());
-  assert.ok(replay.world.overlapping([0, 0, 0], 1).length > 0);
-  assert.throws(() => replay.world.overlapping([0, 0, 0], 1, { probe }), /overlapping: the world of a replay cannot ask a probe/);
+  assert.ok(replay.world.overlapping([0, 0, 0], 0.5).length > 0);
+  assert.throws(() => replay.world.overlapping([0, 0, 0], 0.5, { probe }), /overlapping: the world of a replay cannot ask a probe/);
 });
 
 /** Three balls in a row, the first of which comes. */

@@ -79,7 +79,7 @@ for (const contacts of [undefined, "all", "impacts", "begin_and_end"]) {
     };
     let before = energy(motion.states(0));
     for (let second = 1; second <= 4; ++second) {
-      world.run(second, { motion, respond: { restitution: 0.5 } });
+      world.run(second, { motion, respond: { restitution: 0.5, restingSpeed: 0.05 } });
       const states = motion.states(second);
       assert.ok(deepest(states, 6, radius, n) < 2e-6, `${deepest(states, 6, radius, n)} after ${second}`);
       assert.ok(energy(states) <= before + 1e-6);

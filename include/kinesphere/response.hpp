@@ -35,8 +35,9 @@ struct Bounce {
 /// `repeated` contact loses no energy (restitution 1), which prevents inelastic collapse from stopping time
 /// (Luding and McNamara's TC model). In a stack under gravity nearly all slow contacts are repeated, since
 /// the lowest body hops upon the ground all the time: such bodies do not come to rest, and their contacts
-/// grow more frequent. settle() brings them to rest. Bodies of a `jammed` contact separate with zero speed,
-/// whatever the restitution. NaN gives velocities that are NaN, which World::set_velocity() refuses by name.
+/// grow more frequent, up to about 5 sqrt(g / contact_tolerance) in a unit of time for each body of a heap.
+/// settle() brings them to rest. Bodies of a `jammed` contact separate with zero speed, whatever the
+/// restitution. NaN gives velocities that are NaN, which World::set_velocity() refuses by name.
 [[nodiscard]] Bounce bounce(const Event& contact, double restitution);
 
 /// Like the above, with these masses (> 0; the second is ignored for a wall) instead of those of the event. A

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinesphere/response.hpp"
+#include "kinesphere/kinesphere.hpp"
 #include "number/infinity.hpp"
 #include "support/playground.hpp"
 
@@ -269,6 +269,39 @@ TEST(Jammed, IsNotWhatManyHitAtOnce) {
     ++begins;
   }
   EXPECT_GE(begins, 100u);
+}
+
+/// With bounce() the bodies of a heap hop within the tolerance: as often as falls through it follow each
+/// other.
+TEST(Bouncing, InAHeapCostsWhatTheToleranceSays) {
+  constexpr std::uint32_t side = 4;
+  for (const double tolerance : {1e-3, 1e-4}) {
+    SCOPED_TRACE(tolerance);
+    BallisticDefinition flight{.gravity = gravity};
+    Random random(1);
+    for (std::uint32_t k = 0; k < side * side * side; ++k)
+      flight.start.push_back(
+          {{k % side + 0.5, k / side % side + 0.5, k / (side * side) + 0.5}, random.point_in_ball() * 0.5});
+    Ballistic motion = Ballistic::create(flight).value();
+    const Box box{{}, {side, side, side}};
+    World world = World::create({.box = box, .contact_tolerance = tolerance}).value();
+    for (std::uint32_t body = 0; body < flight.start.size(); ++body) {
+      BodyDefinition ball = motion.definition(body, 0.0);
+      ball.radius = 0.4;
+      world.add(ball).value();
+    }
+    SingleMotionSource source(motion);
+    std::uint64_t contacts = 0;
+    const auto respond = [](const Event& event) { return response_of(event, bounce(event, 0.5)); };
+    const auto count = [&](const Event& event) {
+      contacts += event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+    };
+    world.run(6.0, source, respond, [](const Event&) {}).value();
+    world.run(7.0, source, respond, count).value();
+    const double each = static_cast<double>(contacts) / static_cast<double>(flight.start.size());
+    EXPECT_GT(each / std::sqrt(g / tolerance), 1.0);
+    EXPECT_LT(each / std::sqrt(g / tolerance), 12.0);
+  }
 }
 
 }  // namespace
