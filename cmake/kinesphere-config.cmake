@@ -1,5 +1,5 @@
 # find_package(kinesphere) reads this file. The library uses Google Highway and threads; a static link needs them too.
-# The component mpi likewise needs MPI and Zoltan.
+# The component mpi likewise needs MPI, and Zoltan if it was built with it.
 include(CMakeFindDependencyMacro)
 include(${CMAKE_CURRENT_LIST_DIR}/kinesphere-targets.cmake)
 get_target_property(kinesphere_type kinesphere::kinesphere TYPE)
@@ -16,9 +16,11 @@ foreach(kinesphere_component ${kinesphere_FIND_COMPONENTS})
   else()
     if(kinesphere_type STREQUAL "STATIC_LIBRARY")
       find_dependency(MPI COMPONENTS CXX)
-      list(PREPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
-      find_dependency(Zoltan)
-      list(POP_FRONT CMAKE_MODULE_PATH)
+      if(EXISTS ${CMAKE_CURRENT_LIST_DIR}/FindZoltan.cmake)
+        list(PREPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
+        find_dependency(Zoltan)
+        list(POP_FRONT CMAKE_MODULE_PATH)
+      endif()
     endif()
     include(${CMAKE_CURRENT_LIST_DIR}/kinesphere-mpi-targets.cmake)
     set(kinesphere_mpi_FOUND TRUE)

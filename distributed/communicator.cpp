@@ -6,6 +6,7 @@
 #include <cstring>
 #include <ctime>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace kinesphere {
@@ -18,6 +19,10 @@ double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+MPI_Comm comm_of(std::optional<int> fortran_handle) {
+  return fortran_handle ? MPI_Comm_f2c(*fortran_handle) : MPI_COMM_WORLD;
 }
 
 template <class Begin>
@@ -46,11 +51,28 @@ class Communicator::Timer {
   double begin_;
 };
 
-Communicator::Communicator() : handle_(new Handle) {
-  MPI_Comm_dup(MPI_COMM_WORLD, &handle_->comm);
+Result<void> Communicator::check(std::optional<int> fortran_handle, std::string_view call) {
+  const MPI_Comm comm = comm_of(fortran_handle);
+  const auto error = [&](const char* what) {
+    return Error{ErrorCode::unsupported, "communicator", no_body,
+                 std::string(call) + ": communicator " + what};
+  };
+  if (comm == MPI_COMM_NULL)
+    return error("is MPI_COMM_NULL; only the ranks that are in it may make the call");
+  int has_two_groups = 0;
+  MPI_Comm_test_inter(comm, &has_two_groups);
+  if (has_two_groups != 0)
+    return error("is an intercommunicator; MPI_Intercomm_merge() makes one group of it");
+  return {};
+}
+
+Communicator::Communicator(std::optional<int> fortran_handle) : handle_(new Handle) {
+  MPI_Comm_dup(comm_of(fortran_handle), &handle_->comm);
   MPI_Comm_rank(handle_->comm, &rank_);
   MPI_Comm_size(handle_->comm, &ranks_);
 }
+
+int Communicator::fortran_handle() const { return MPI_Comm_c2f(handle_->comm); }
 
 Communicator::~Communicator() {
   int over = 0;

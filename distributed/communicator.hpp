@@ -4,8 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
+
+#include "kinesphere/result.hpp"
 
 namespace kinesphere {
 
@@ -13,15 +17,20 @@ class Communicator {
  public:
   using Bytes = std::vector<std::byte>;
 
-  /// Duplicates MPI_COMM_WORLD, so that messages do not mix with those of other code. Precondition: MPI has
-  /// been initialised.
-  Communicator();
+  /// Returns unsupported (communicator) unless the handle (DistributedWorld::create()) is that of a
+  /// communicator of which this process is a rank, and not of two groups (an intercommunicator).
+  static Result<void> check(std::optional<int> fortran_handle, std::string_view call);
+  /// Duplicates the communicator with this handle, or MPI_COMM_WORLD, so that messages do not mix with those
+  /// of other code. Preconditions: check(); MPI has been initialised.
+  explicit Communicator(std::optional<int> fortran_handle = std::nullopt);
   Communicator(const Communicator&) = delete;
   Communicator& operator=(const Communicator&) = delete;
   ~Communicator();
 
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
+  /// Returns a handle for other libraries that send messages over MPI.
+  int fortran_handle() const;
 
   /// Replaces each number by its sum over all ranks (added in rank order) or by its minimum over all ranks.
   void sum(std::span<std::uint64_t> numbers);

@@ -18,7 +18,9 @@ DistributedWorld::DistributedWorld(DistributedWorld&&) noexcept = default;
 DistributedWorld& DistributedWorld::operator=(DistributedWorld&&) noexcept = default;
 DistributedWorld::~DistributedWorld() = default;
 
-Result<DistributedWorld> DistributedWorld::create(const WorldDefinition& definition, Motion& motion) {
+Result<DistributedWorld> DistributedWorld::create(const WorldDefinition& definition, Motion& motion,
+                                                  std::optional<int> communicator) {
+  if (auto usable = Communicator::check(communicator, "create"); !usable) return usable.error();
   const auto valid = [&]() -> Result<void> {
     if (auto checked = check_world(definition); !checked) return checked;
     if (!definition.allow_overlap)
@@ -29,7 +31,7 @@ Result<DistributedWorld> DistributedWorld::create(const WorldDefinition& definit
   const auto checked = valid();
   // An invalid definition is replaced by the default one, because the error has to reach all ranks through
   // the engine's communicator.
-  auto domain = std::make_unique<RankEngine>(checked ? definition : WorldDefinition{}, motion);
+  auto domain = std::make_unique<RankEngine>(checked ? definition : WorldDefinition{}, motion, communicator);
   if (auto agreed = domain->agree(checked); !agreed) return agreed.error();
   return DistributedWorld(std::move(domain));
 }
@@ -65,8 +67,9 @@ Result<void> DistributedWorld::run(double until, const OrderedEventFn& sink, Wor
 Result<std::vector<std::byte>> DistributedWorld::save() { return engine_->save(); }
 
 Result<DistributedWorld> DistributedWorld::restore(std::span<const std::vector<std::byte>> parts,
-                                                   Motion& motion) {
-  auto domain = RankEngine::restore(parts, motion);
+                                                   Motion& motion, std::optional<int> communicator) {
+  if (auto usable = Communicator::check(communicator, "restore"); !usable) return usable.error();
+  auto domain = RankEngine::restore(parts, motion, communicator);
   if (!domain) return domain.error();
   return DistributedWorld(std::move(*domain));
 }

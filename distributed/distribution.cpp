@@ -6,12 +6,16 @@
 #include "archive/archive.hpp"
 #include "distributed/guarded.hpp"
 #include "distributed/send_buffers.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 namespace {
 
 /// Limit of the imbalance, greatest work of a rank over mean work, beyond which space is divided anew.
 constexpr double most_imbalance = 1.2;
+/// A rank tells others of so many ways of its bodies one by one, each of which they look at for each of their
+/// bodies. Where there are more, all know more of the space around its region.
+constexpr std::ptrdiff_t most_ways_elsewhere = 32;
 
 Box grown(Box box, double by) {
   const Vec3 margin{by, by, by};
@@ -122,29 +126,29 @@ Box Distribution::region_around(int rank, double distance) const {
   return grown(region, distance);
 }
 
-/// Makes known where the safe regions of each rank's bodies will be: around its region of space, and around
-/// the ways of bodies that lead elsewhere.
+/// Makes known where the safe regions of each rank's bodies will be: so far around its region of space that
+/// few ways of bodies lead elsewhere, and around these.
 void Distribution::know(std::span<const Box> ways, double width) {
-  for (int rank = 0; rank < communicator_.ranks(); ++rank) {
-    const Box around = region_around(rank, width);
-    known_[rank].assign(std::span(&around, 1));
+  HaloRegion& here = known_[communicator_.rank()];
+  const auto leads_elsewhere = [&](const Box& way) { return !known_.covers(way); };
+  double distance = width;
+  for (;; distance *= 1.5) {
+    const Box around = region_around(communicator_.rank(), distance);
+    here.assign(std::span(&around, 1));
+    if (std::count_if(ways.begin(), ways.end(), leads_elsewhere) <= most_ways_elsewhere) break;
+    // No distance around no space covers anything.
+    if (around.upper.x < around.lower.x || !(distance < infinity)) break;
   }
-  std::vector<Box> elsewhere;
-  for (const Box& way : ways) {
-    if (known_.covers(way)) continue;
-    elsewhere.push_back(grown(way, width));
-    known_[communicator_.rank()].add(elsewhere.back());
-  }
+  for (const Box& way : ways)
+    if (leads_elsewhere(way)) here.add(grown(way, width));
   ByteWriter writer;
-  writer(elsewhere);
+  writer(here.boxes());
   int rank = 0;
   for (const Communicator::Bytes& bytes : communicator_.gather(writer.bytes())) {
     std::vector<Box> boxes;
     ByteReader reader(bytes);
     reader(boxes);
-    if (rank != communicator_.rank())
-      for (const Box& box : boxes) known_[rank].add(box);
-    ++rank;
+    known_[rank++].assign(boxes);
   }
 }
 

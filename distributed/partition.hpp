@@ -14,9 +14,11 @@ class Partition {
   /// Assigns all of space to rank 0.
   explicit Partition(int ranks);
   /// Collective; each rank passes some of the positions or none. Balances the cost of the bodies at these
-  /// positions over the ranks by Zoltan's recursive coordinate bisection. `costs`: one per position, > 0.
+  /// positions over the ranks by recursive coordinate bisection. `costs`: one per position, > 0.
   static Partition choose(Communicator& communicator, std::span<const Vec3> positions,
                           std::span<const double> costs);
+  /// Makes the partition of the boxes of all ranks, which bisect() has found.
+  static Partition along(std::span<const Box> boxes);
 
   int ranks() const { return static_cast<int>(regions_.size()); }
   /// Returns the rank that owns the position; every position has exactly one owner. Cost: O(log ranks) if the

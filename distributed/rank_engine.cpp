@@ -31,9 +31,11 @@ constexpr std::size_t most_events = 1 << 16;
 
 }  // namespace
 
-DistributedWorld::RankEngine::RankEngine(const WorldDefinition& definition, Motion& motion)
+DistributedWorld::RankEngine::RankEngine(const WorldDefinition& definition, Motion& motion,
+                                         std::optional<int> communicator)
     : definition_(definition),
       motion_(motion),
+      communicator_(communicator),
       consensus_(communicator_),
       distribution_(communicator_, consensus_, definition_, motion),
       time_(definition.start_time),

@@ -32,7 +32,7 @@ struct Checkpoint;
 
 class DistributedWorld::RankEngine {
  public:
-  RankEngine(const WorldDefinition& definition, Motion& motion);
+  RankEngine(const WorldDefinition& definition, Motion& motion, std::optional<int> communicator);
 
   Communicator& communicator() { return communicator_; }
   const WorldDefinition& definition() const { return definition_; }
@@ -51,7 +51,7 @@ class DistributedWorld::RankEngine {
   // rank_engine_checkpoint.cpp
   Result<std::vector<std::byte>> save();
   static Result<std::unique_ptr<RankEngine>> restore(std::span<const std::vector<std::byte>> parts,
-                                                     Motion& motion);
+                                                     Motion& motion, std::optional<int> communicator);
 
   std::uint64_t own_bodies() const { return own_.size() + arriving_->bodies.numbers(); }
   const Counters& counters() const { return counters_; }

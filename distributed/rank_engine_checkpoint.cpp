@@ -30,15 +30,15 @@ Result<std::vector<std::byte>> DistributedWorld::RankEngine::save() {
 }
 
 Result<std::unique_ptr<DistributedWorld::RankEngine>> DistributedWorld::RankEngine::restore(
-    std::span<const std::vector<std::byte>> parts, Motion& motion) {
+    std::span<const std::vector<std::byte>> parts, Motion& motion, std::optional<int> communicator) {
   auto read = Checkpoint::read_all(parts);
   std::vector<Checkpoint> here;
   if (read) here = std::move(*read);
-  Communicator all;
+  Communicator all(communicator);
   Checkpoint common;
   Result<void> valid = gather_common(all, here, common);
   if (!read) valid = read.error();
-  auto domain = std::make_unique<RankEngine>(common.definition, motion);
+  auto domain = std::make_unique<RankEngine>(common.definition, motion, communicator);
   if (auto agreed = domain->agree(valid); !agreed) return agreed.error();
   if (auto resumed = domain->resume(common, here); !resumed) return resumed.error();
   return domain;

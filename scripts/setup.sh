@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing here. Where none is, it does nothing, without network.
-# Usage: setup.sh run | program | mpi | browser | python | research | prove | docs | test | windows | all | coverage
+# Usage: setup.sh run | program | mpi | mpich | browser | python | research | prove | docs | test | windows | all | coverage
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev)
@@ -23,6 +23,7 @@ windows=(g++-mingw-w64-x86-64-posix wine wine64 googletest dpkg-dev)
 case ${1:-} in
   run | program) ;;
   mpi) packages+=("${mpi[@]}") ;;
+  mpich) packages+=(mpich libmpich-dev libgtest-dev librapidcheck-dev libcpp-httplib-dev nats-server) ;;
   browser) packages+=("${browser[@]}") ;;
   python) packages+=("${python[@]}") ;;
   research) packages+=(gnuplot-nox libbullet-dev libfcl-dev libgtest-dev librapidcheck-dev clang clang-format clang-tidy black) ;;
@@ -32,7 +33,7 @@ case ${1:-} in
   docs) packages+=("${documenting[@]}" "${python[@]}") ;;
   prove) packages=("${proving[@]}" g++ libgtest-dev) ;;
   coverage) packages+=("${testing[@]}" gcovr) ;;
-  *) echo "setup: usage: setup.sh run | program | mpi | browser | python | research | prove | docs | test | windows | all | coverage" >&2 && exit 2 ;;
+  *) echo "setup: usage: setup.sh run | program | mpi | mpich | browser | python | research | prove | docs | test | windows | all | coverage" >&2 && exit 2 ;;
 esac
 
 if ! command -v apt-get >/dev/null; then

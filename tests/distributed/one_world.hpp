@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,8 @@ struct Setting {
   Bringer bringer = in_turn;
   /// Number of advances of the run.
   int slices = 1;
+  /// Whose ranks share the world: DistributedWorld::create().
+  std::optional<int> communicator{};
 
   BodyDefinition body(std::uint32_t number) const {
     BodyDefinition body = scene.motion->definition(number, scene.world.start_time);
@@ -113,7 +116,8 @@ inline RunOutcome alone(const Setting& setting) {
 
 /// Returns the world of this rank, with the bodies that it adds; removes all others from the motion.
 inline DistributedWorld spread(const Setting& setting, Motion& motion) {
-  DistributedWorld world = DistributedWorld::create(setting.scene.world, motion).value();
+  DistributedWorld world =
+      DistributedWorld::create(setting.scene.world, motion, setting.communicator).value();
   if (setting.sensors) world.set_sensor(1, setting.sensor()).value();
   const auto bodies = static_cast<std::uint32_t>(setting.scene.bodies.size());
   for (std::uint32_t k = 0; k < bodies; ++k)
@@ -127,12 +131,12 @@ inline DistributedWorld spread(const Setting& setting, Motion& motion) {
   return world;
 }
 
-/// Returns the events of all ranks, in the order of one world.
-inline std::vector<Event> merged(const std::vector<OrderedEvent>& here) {
+/// Returns the events of all ranks of a communicator, in the order of one world.
+inline std::vector<Event> merged(const std::vector<OrderedEvent>& here, std::optional<int> of_ranks = {}) {
   ByteWriter writer;
   for (const OrderedEvent& event : here) writer(event.event, event.round);
   std::vector<OrderedEvent> all;
-  Communicator communicator;
+  Communicator communicator(of_ranks);
   for (const auto& bytes : communicator.gather(writer.bytes())) {
     ByteReader reader(bytes);
     while (reader.remaining() > 0) {
@@ -168,7 +172,7 @@ inline RunOutcome finish(const Setting& setting, DistributedWorld& world,
   }
   EXPECT_EQ(world.time(), setting.scene.end_time);
   EXPECT_EQ(world.size(), setting.scene.bodies.size());
-  return {merged(reported), world.counters(), world.hash().value()};
+  return {merged(reported, setting.communicator), world.counters(), world.hash().value()};
 }
 
 inline RunOutcome spread_out(const Setting& setting) {

@@ -12,6 +12,7 @@
 
 #include "archive/archive.hpp"
 #include "archive/fields.hpp"
+#include "distributed/bisection.hpp"
 #include "kinesphere/random.hpp"
 #include "number/infinity.hpp"
 
@@ -125,10 +126,9 @@ void expect_the_same_everywhere(Communicator& communicator, const Partition& par
   for (const auto& bytes : communicator.gather(writer.bytes())) EXPECT_EQ(bytes, writer.bytes());
 }
 
-/// Chooses a partition and makes all checks that do not depend on the points. Returns its imbalance.
-double check(const Cloud& cloud, std::uint64_t tries = 5'000) {
-  Communicator communicator;
-  const Partition partition = Partition::choose(communicator, cloud.positions, cloud.costs);
+/// Makes all checks of a partition that do not depend on the points. Returns its imbalance.
+double check(Communicator& communicator, const Partition& partition, const Cloud& cloud,
+             std::uint64_t tries) {
   EXPECT_EQ(partition.ranks(), communicator.ranks());
   expect_the_same_everywhere(communicator, partition);
   expect_tiling(partition, cloud, tries);
@@ -136,6 +136,15 @@ double check(const Cloud& cloud, std::uint64_t tries = 5'000) {
   const double most = -communicator.least(-sum[0]);
   communicator.sum(sum);
   return sum[0] > 0.0 ? most * communicator.ranks() / sum[0] : 1.0;
+}
+
+/// Chooses partitions, by Zoltan if this build has it and without it, and checks both. Returns the larger
+/// imbalance.
+double check(const Cloud& cloud, std::uint64_t tries = 5'000) {
+  Communicator communicator;
+  const Partition chosen = Partition::choose(communicator, cloud.positions, cloud.costs);
+  const Partition bisected = Partition::along(bisect(communicator, cloud.positions, cloud.costs));
+  return std::max(check(communicator, chosen, cloud, tries), check(communicator, bisected, cloud, tries));
 }
 
 TEST(Partition, IsAllOfSpaceByDefault) {

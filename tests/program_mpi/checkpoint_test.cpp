@@ -85,12 +85,10 @@ TEST_F(MpiProgramCheckpoints, OfRunsThatWereKilled) {
                              "' ] && exit; sleep 0.01; done; sleep 0.0" + std::to_string(random.bits() % 10) +
                              "; kill -9 $$";
     const std::string script =
-        write("killed.sh", "[ $OMPI_COMM_WORLD_RANK = " + std::to_string(victim) + " ] && { " + wait +
-                               "; } 2>/dev/null &\nexec " + program + " \"$@\"\n");
-    const ProgramRun run =
-        run_shell(std::string("'") + KINESPHERE_MPIRUN + "' " + KINESPHERE_MPIRUN_RANKS + " " +
-                  std::to_string(ranks) + " sh '" + script + "' " + arguments("15", "--resume"));
-    if (run.exit_code == 137) ++killed;
+        write("killed.sh", "[ ${OMPI_COMM_WORLD_RANK:-$PMI_RANK} = " + std::to_string(victim) + " ] && { " +
+                               wait + "; } 2>/dev/null &\nexec " + program + " \"$@\"\n");
+    const ProgramRun run = run_shell(mpirun(ranks) + "sh '" + script + "' " + arguments("15", "--resume"));
+    if (was_killed(run)) ++killed;
   }
   EXPECT_GE(killed, 3) << "the others were too fast";
   const ProgramRun last = run_mpi(2, arguments("15", "--resume"));

@@ -37,27 +37,27 @@ TEST_F(MpiProgramErrors, OfFilesThatCannotBeWritten) {
 
 /// A limit of some blocks for a file acts as a full disk.
 TEST_F(MpiProgramErrors, OfAFullDiskOnOneRank) {
+  if (is_mpich())
+    GTEST_SKIP() << "the shared memory of MPICH is in files, too, so it does not start with such a limit";
   const std::string program = std::string("'") + KINESPHERE_MPI_PROGRAM + "'";
   const std::string limited =
-      write("limited.sh",
-            "trap '' XFSZ\n[ $OMPI_COMM_WORLD_RANK = 1 ] && ulimit -f 1\nexec " + program + " \"$@\"\n");
+      write("limited.sh", "trap '' XFSZ\n[ ${OMPI_COMM_WORLD_RANK:-$PMI_RANK} = 1 ] && ulimit -f 1\nexec " +
+                              program + " \"$@\"\n");
   const ProgramRun failed = run_shell(
-      std::string("'") + KINESPHERE_MPIRUN + "' " + KINESPHERE_MPIRUN_RANKS + " 2 sh '" + limited +
+      mpirun(2) + "sh '" + limited +
       "' run paper1 --bodies 300 --seconds 1 --quiet --file-per-rank --contacts '" + path("all.csv") + "'");
   expect_one_message(failed, 1, "rank 1: " + path("all.csv.1") + ": cannot write: File too large");
 }
 
-/// mpirun names the rank, and no other rank waits for it.
+/// No other rank waits for it.
 TEST_F(MpiProgramErrors, OfARankThatIsKilled) {
   const std::string program = std::string("'") + KINESPHERE_MPI_PROGRAM + "'";
   const std::string killed =
-      write("killed.sh",
-            "[ $OMPI_COMM_WORLD_RANK = 1 ] && { sleep 1; kill -9 $$; } &\nexec " + program + " \"$@\"\n");
+      write("killed.sh", "[ ${OMPI_COMM_WORLD_RANK:-$PMI_RANK} = 1 ] && { sleep 1; kill -9 $$; } &\nexec " +
+                             program + " \"$@\"\n");
   const ProgramRun failed =
-      run_shell(std::string("'") + KINESPHERE_MPIRUN + "' " + KINESPHERE_MPIRUN_RANKS + " 2 sh '" + killed +
-                "' run paper1 --bodies 1000 --seconds 1000 --quiet");
-  EXPECT_EQ(failed.exit_code, 137) << failed.err;
-  EXPECT_NE(failed.err.find("noticed that process rank 1"), std::string::npos) << failed.err;
+      run_shell(mpirun(2) + "sh '" + killed + "' run paper1 --bodies 1000 --seconds 1000 --quiet");
+  EXPECT_TRUE(was_killed(failed)) << failed.exit_code << "\n" << failed.err;
 }
 
 }  // namespace

@@ -4,19 +4,29 @@
 #include <algorithm>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 #include "program/support.hpp"
 
 namespace kinesphere::program {
 
+inline bool is_mpich() { return std::string_view(KINESPHERE_MPIRUN).find("mpich") != std::string_view::npos; }
+
 class MpiProgramTest : public ProgramTest {
  protected:
+  /// Returns the text that starts a program on so many ranks. Those of MPICH wait busily, so it starts no
+  /// more than there are processors.
+  static std::string mpirun(int ranks) {
+    if (is_mpich())
+      ranks = std::min(ranks, std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+    return std::string("'") + KINESPHERE_MPIRUN + "' " + KINESPHERE_MPIRUN_RANKS + " " +
+           std::to_string(ranks) + " ";
+  }
   /// `before` is shell text that precedes mpirun.
   ProgramRun run_mpi(int ranks, const std::string& arguments, const std::string& before = "") const {
-    const std::string mpirun =
-        std::string("'") + KINESPHERE_MPIRUN + "' " + KINESPHERE_MPIRUN_RANKS + " " + std::to_string(ranks);
-    return run_shell(before + mpirun + " '" + KINESPHERE_MPI_PROGRAM + "' " + arguments);
+    return run_shell(before + mpirun(ranks) + "'" + KINESPHERE_MPI_PROGRAM + "' " + arguments);
   }
 
   /// The output of kinesphere for a scene.
@@ -40,6 +50,10 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
 }
+
+/// mpirun's exit code where a rank was killed: 128 more than the signal by Open MPI, the signal itself by
+/// MPICH.
+inline bool was_killed(const ProgramRun& run) { return run.exit_code == 137 || run.exit_code == 9; }
 
 /// Returns the lines that the program itself has printed, without those of mpirun.
 inline std::vector<std::string> messages_in(const std::string& err) {

@@ -8,15 +8,16 @@
 //     world.add(first + k, motion.definition(k, 0.0), k).value();
 //   world.run(60.0, respond, sink).value();
 //
-// The processes are the ranks of MPI_COMM_WORLD, started by mpirun. Each rank owns the bodies in its region
-// of space and holds ghosts of bodies nearby. Events are bitwise equal to those of one World with equal
-// bodies and indices, for any number of ranks and any assignment of bodies to the ranks that add them. Small
-// worlds gain nothing from ranks (docs/distributed.md).
+// The processes are the ranks of MPI_COMM_WORLD, started by mpirun, or of a communicator of the caller's.
+// Each rank owns the bodies in its region of space and holds ghosts of bodies nearby. Events are bitwise
+// equal to those of one World with equal bodies and indices, for any number of ranks and any assignment of
+// bodies to the ranks that add them. Small worlds gain nothing from ranks (docs/distributed.md).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -75,9 +76,14 @@ class DistributedWorld {
  public:
   /// Collective. Creates an empty world. `motion` moves the bodies of this rank and must outlive the world.
   /// Bodies migrate between ranks with Motion::write_body and read_body, so all ranks need motions of equal
-  /// definition; responses need origin() and set_origin(), too. Errors: those of World::create; unsupported
-  /// (allow_overlap).
-  [[nodiscard]] static Result<DistributedWorld> create(const WorldDefinition& definition, Motion& motion);
+  /// definition; responses need origin() and set_origin(), too.
+  /// `communicator`: the ranks that share the world, as the Fortran handle of an MPI communicator:
+  /// MPI_Comm_c2f(comm), in mpi4py comm.py2f(). It is duplicated, so a coupled program may use it meanwhile.
+  /// Only its ranks make the collective calls. Default: MPI_COMM_WORLD.
+  /// Errors: those of World::create; unsupported (allow_overlap); on this rank alone, unsupported
+  /// (communicator: it is MPI_COMM_NULL or an intercommunicator).
+  [[nodiscard]] static Result<DistributedWorld> create(const WorldDefinition& definition, Motion& motion,
+                                                       std::optional<int> communicator = std::nullopt);
   DistributedWorld(DistributedWorld&&) noexcept;
   DistributedWorld& operator=(DistributedWorld&&) noexcept;
   ~DistributedWorld();
@@ -113,9 +119,10 @@ class DistributedWorld {
   /// Collective. Restores a world from the parts written by save(). Each part is passed on exactly one rank,
   /// no matter which; a rank may pass several parts or none. `motion` must be empty and have the definition
   /// of the motions that were saved. Errors: bad_snapshot if a part is damaged, missing, duplicated or of
-  /// another world; those of Motion::read_body.
+  /// another world; those of Motion::read_body; of `communicator` as for create().
   [[nodiscard]] static Result<DistributedWorld> restore(std::span<const std::vector<std::byte>> parts,
-                                                        Motion& motion);
+                                                        Motion& motion,
+                                                        std::optional<int> communicator = std::nullopt);
 
   /// Return the current time, the number of this rank and of all ranks, and the definition. Not collective.
   double time() const;
