@@ -96,13 +96,15 @@ Result<std::vector<BodyRecord>> Distribution::receive(std::vector<Communicator::
 /// on.
 Box Distribution::way_of(const BodyRecord& body, const Slab& slab) const {
   const Bound& bound = body.body.bound;
-  const Vec3 now = place_of(body, slab.begin);
+  Vec3 now = place_of(body, slab.begin);
   double reach = body.region_reach;
   Vec3 centre = body.region_centre;
   if (body.is_arriving) {
     centre = now;
     reach = 4.0 * (bound.radius + body.first_radius);
   }
+  // The two may be on both sides of a face of the primary box.
+  if (space_.repeats()) now += space_.shift_to_nearest(now, centre);
   const Vec3 extent{reach, reach, reach};
   Box way{centre - extent, centre + extent};
   const double duration = std::min(slab.stop - slab.begin, 1e100);
@@ -161,21 +163,22 @@ Result<std::vector<BodyRecord>> Distribution::send_ghosts(std::span<const BodyRe
   for (const BodyRecord& body : own) ways.push_back(way_of(body, slab));
   know(ways, halo.width);
   SendBuffers buffers(communicator_.ranks());
+  ByteWriter writer;
   consensus_.note(guarded([&] {
     for (std::size_t k = 0; k < own.size(); ++k) {
       const std::vector<int> ranks = known_.ranks_that_meet(grown(ways[k], halo.margin));
       if (ranks.empty()) continue;
       BodyRecord ghost = own[k];
       motion_.write_body(ghost.in_motion, ghost.motion).value();
+      writer.clear();
+      writer(ghost);
       for (const int rank : ranks) {
-        buffers.add(rank, ghost);
+        buffers.append(rank, writer.bytes());
         sent_.emplace_back(ghost.name, rank);
       }
     }
   }));
-  auto ghosts = receive(buffers.exchange(communicator_));
-  if (ghosts) std::sort(ghosts->begin(), ghosts->end(), comes_before);
-  return ghosts;
+  return receive(buffers.exchange(communicator_));
 }
 
 void Distribution::drop(std::span<const BodyRecord> ghosts) {

@@ -49,8 +49,8 @@ class Distribution {
   /// then. Those that come from a checkpoint have their motions in their records, and get a number in this
   /// rank's.
   Result<void> assign(std::vector<BodyRecord>& own, double time);
-  /// Sends ghosts to all ranks that may need them during the slab. Returns those that arrive, by name, whose
-  /// motions have been read.
+  /// Sends ghosts to all ranks that may need them during the slab. Returns those that arrive, in any order,
+  /// whose motions have been read.
   Result<std::vector<BodyRecord>> send_ghosts(std::span<const BodyRecord> own, const Slab& slab,
                                               const Halo& halo);
   /// Removes the motions of ghosts.

@@ -162,9 +162,8 @@ Result<DistributedWorld::RankEngine::Outcome> DistributedWorld::RankEngine::try_
   std::vector<const BodyRecord*> records;
   for (const auto* const some : {&std::as_const(own_), &std::as_const(*ghosts)})
     for (const BodyRecord& record : *some) records.push_back(&record);
-  std::inplace_merge(records.begin(), records.begin() + static_cast<std::ptrdiff_t>(own_.size()),
-                     records.end(),
-                     [](const BodyRecord* a, const BodyRecord* b) { return a->name < b->name; });
+  std::sort(records.begin(), records.end(),
+            [](const BodyRecord* a, const BodyRecord* b) { return a->name < b->name; });
   Part part(definition_, sensors_, facts_, time_, communicator_.rank(), records, motion_);
   const ScopeGuard drop([&] { distribution_.drop(*ghosts); });
   ScopeGuard go_back([&] { part.undo(); });

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,10 @@ class SendBuffers {
   template <class... Values>
   void add(int to, const Values&... values) {
     writers_[static_cast<std::size_t>(to)](values...);
+  }
+  /// Adds values as add() does, which have been written already.
+  void append(int to, std::span<const std::byte> bytes) {
+    writers_[static_cast<std::size_t>(to)].append(bytes);
   }
   /// Collective. Sends and clears all buffers; returns the received bytes, indexed by rank.
   std::vector<Communicator::Bytes> exchange(Communicator& communicator) {

@@ -99,11 +99,16 @@ class ByteWriter {
     (write(values), ...);
   }
 
-  void append(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
-  const std::vector<std::byte>& bytes() const { return bytes_; }
-  std::vector<std::byte> take() { return std::move(bytes_); }
+  void append(std::span<const std::byte> bytes) {
+    std::copy(bytes.begin(), bytes.end(), room_for(bytes.size()));
+  }
+  std::span<const std::byte> bytes() const { return std::span(bytes_).first(end_); }
+  std::vector<std::byte> take() {
+    bytes_.resize(std::exchange(end_, 0));
+    return std::exchange(bytes_, {});
+  }
   /// Discards the bytes written, and keeps the memory for reuse.
-  void clear() { bytes_.clear(); }
+  void clear() { end_ = 0; }
 
  private:
   template <class T>
@@ -145,10 +150,19 @@ class ByteWriter {
   template <class Word>
   void write_word(Word word) {
     const auto digits = bit_cast<std::array<std::byte, sizeof(Word)>>(detail::little_endian(word));
-    bytes_.insert(bytes_.end(), digits.begin(), digits.end());
+    std::copy(digits.begin(), digits.end(), room_for(sizeof(Word)));
   }
 
-  std::vector<std::byte> bytes_;
+  /// Returns where so many bytes are to be written, which come next.
+  std::byte* room_for(std::size_t size) {
+    constexpr std::size_t least_room = 64, most_room = std::size_t{1} << 20;
+    if (bytes_.size() - end_ < size)
+      bytes_.resize(end_ + std::max(size, std::clamp(end_, least_room, most_room)));
+    return bytes_.data() + std::exchange(end_, end_ + size);
+  }
+
+  std::vector<std::byte> bytes_;  ///< with room at the end
+  std::size_t end_ = 0;           ///< of what has been written
 };
 
 /// Reads untrusted bytes. A value that cannot be read sets failed(), and every later read fails too. Memory

@@ -39,7 +39,7 @@ bool same(const T& a, const T& b) {
   ByteWriter bytes_of_a, bytes_of_b;
   bytes_of_a(a);
   bytes_of_b(b);
-  return bytes_of_a.bytes() == bytes_of_b.bytes();
+  return bytes_of_a.take() == bytes_of_b.take();
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace kinesphere::archive_test {
 namespace {
 
-std::vector<int> as_numbers(const std::vector<std::byte>& bytes) {
+std::vector<int> as_numbers(std::span<const std::byte> bytes) {
   std::vector<int> numbers;
   for (const std::byte byte : bytes) numbers.push_back(std::to_integer<int>(byte));
   return numbers;

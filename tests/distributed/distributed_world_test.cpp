@@ -77,6 +77,19 @@ TEST(DistributedWorld, TellsOfALongTube) {
   }
 }
 
+/// Some bodies are always on both sides of a face of the primary box. No rank knows all bodies for that.
+TEST(DistributedWorld, KnowsLittleAroundTheFacesOfTheBox) {
+  SceneParameters parameters = parameters_of("periodic_gas", 1500, 1.0);
+  parameters.box = {{0, 0, 0}, {75, 1, 1}};
+  parameters.packing = 0.1;
+  const Setting setting{.scene = scene_of(parameters), .slices = 8};
+  const RunOutcome one = alone(setting);
+  const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
+  DistributedWorld world = spread(setting, *motion);
+  expect_same(one, finish(setting, world));
+  EXPECT_LT(world.figures().ghosts, parameters.bodies / 3);
+}
+
 /// Beside many bodies at rest, a few are hit, fly far aslant to where nobody has expected them, and hit
 /// others. Until then, neither of the two ranks knows the body of the other.
 TEST(DistributedWorld, TellsOfBodiesThatFlyFarOnceTheyAreHit) {

@@ -192,7 +192,7 @@ TEST(NearTracks, AreSavedAndFoundAnew) {
   ASSERT_TRUE(again.rebuild(counts.size(), count_of, {}));
   ByteWriter rewritten;
   rewritten(again);
-  EXPECT_EQ(rewritten.bytes(), written.bytes());
+  EXPECT_TRUE(std::ranges::equal(rewritten.bytes(), written.bytes()));
   for (std::uint32_t number = 0; number < counts.size(); ++number) {
     EXPECT_EQ(near(again, number), near(tracks, number));
     if (counts[number] == 0) continue;
