@@ -65,8 +65,10 @@ Result<void> Distribution::assign(std::vector<BodyRecord>& own, double time) {
   }));
   auto arrived = receive(buffers.exchange(communicator_));
   if (!arrived) return arrived.error();
+  std::sort(arrived->begin(), arrived->end(), comes_before);
+  const auto stayed = static_cast<std::ptrdiff_t>(own.size());
   std::move(arrived->begin(), arrived->end(), std::back_inserter(own));
-  if (!arrived->empty()) std::sort(own.begin(), own.end(), comes_before);
+  std::inplace_merge(own.begin(), own.begin() + stayed, own.end(), comes_before);
   return {};
 }
 
