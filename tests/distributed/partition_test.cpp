@@ -123,7 +123,8 @@ double own_cost(Communicator& communicator, const Partition& partition, const Cl
 void expect_the_same_everywhere(Communicator& communicator, const Partition& partition) {
   ByteWriter writer;
   for (int rank = 0; rank < partition.ranks(); ++rank) writer(partition.region_of(rank));
-  for (const auto& bytes : communicator.gather(writer.bytes())) EXPECT_TRUE(std::ranges::equal(bytes, writer.bytes()));
+  for (const auto& bytes : communicator.gather(writer.bytes()))
+    EXPECT_TRUE(std::ranges::equal(bytes, writer.bytes()));
 }
 
 /// Makes all checks of a partition that do not depend on the points. Returns its imbalance.
