@@ -315,6 +315,17 @@ TEST(CsvFormat, RefusesWrongMaps) {
             std::string::npos);
 }
 
+TEST(CsvFormat, KnowsNoColumnsBeyondItsHeader) {
+  // The first line of a stream may be damaged, and longer than its header.
+  const std::string text = "who,when,east,north\na,1,5,6,7,8\n";
+  EXPECT_EQ(error_of([&] {
+              read_all(StreamFormat::csv, text, {.hints = {.columns = "id=1,time=2,x=3,y=6"}, .source = "t"});
+            }),
+            "--columns: expected 'y' to be a column's name or number from 1 to 4, but got '6': t has the "
+            "columns who, when, "
+            "east, north");
+}
+
 TEST(JsonLinesFormat, ReadsTheLibrarysOwnNames) {
   const CollectedReports kept = read_all(
       StreamFormat::jsonl,

@@ -1,6 +1,7 @@
 // What stands before the rows of a table: comments, names of columns, their units.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -16,7 +17,9 @@ struct TableHead {
   std::vector<std::string> first;     ///< fields of the first row of values
   char separator = ' ';
 
-  std::size_t columns() const { return first.size(); }
+  /// Columns that have a name, where there are names, and a value in the first row, which a stream may have
+  /// longer or shorter than its header.
+  std::size_t columns() const { return names.empty() ? first.size() : std::min(first.size(), names.size()); }
   /// Returns "the columns a, b, c", or "no header and 3 columns".
   std::string text() const;
 };
