@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/program_error.hpp"
-#include "formats/tables/column_words.hpp"
+#include "formats/tables/column_steps.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere::program {

@@ -16,8 +16,8 @@
 #include "formats/fields/units.hpp"
 #include "formats/recordings/file_kind.hpp"
 #include "formats/recordings/recording_kinds.hpp"
-#include "formats/tables/header_line.hpp"
 #include "formats/tables/row_reader.hpp"
+#include "formats/tables/table_head.hpp"
 #include "tracks/midnights.hpp"
 
 namespace kinesphere::program {

@@ -12,8 +12,7 @@
 
 #include "base/input_file.hpp"
 #include "base/program_error.hpp"
-#include "formats/fields/degree_check.hpp"
-#include "formats/fields/time_check.hpp"
+#include "formats/fields/suspicions.hpp"
 #include "tracks/cleaning.hpp"
 #include "tracks/echoes.hpp"
 #include "tracks/handovers.hpp"

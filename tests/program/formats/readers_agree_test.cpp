@@ -242,9 +242,6 @@ TEST(Readers, AgreeOnRecordings) {
       "z\n7 1 2 3\nITEM: TIMESTEP\n1\nITEM: TIME\n1.0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff "
       "ff\n0 9\n0 9\n0 9\nITEM: ATOMS "
       "id x y z\n7 1 2 4\n",
-      "w t= 0.0\n    1\n    1SOL     OW    1   0.100   0.200   0.300\n 9 9 9\nw t= 1.0\n    1\n    1SOL     "
-      "OW    1   0.100   0.200   0.400\n 9 9 "
-      "9\n",
       "$VEHICLE:NO;SIMSEC;COORDFRONT\n1;0;1 2 3\n2;0;4 5 6\n1;1;1 2 4\n2;1;4 5 7\n",
       "track_id; type; traveled_d; avg_speed; lat; lon; speed; lon_acc; lat_acc; time\n1; Car; 1; 1; 37.9; "
       "23.7; 1; 0; 0; 0; 37.91; "

@@ -10,12 +10,23 @@ namespace kinesphere::program {
 
 std::optional<std::string_view> LineCutter::next() {
   if (rest_.empty()) return std::nullopt;
-  const std::size_t end = rest_.find('\n');
-  has_end_ = end != std::string_view::npos;
-  whole_ = rest_.substr(0, end);
-  rest_.remove_prefix(std::min(whole_.size() + 1, rest_.size()));
+  const std::size_t all = rest_.size();
+  whole_ = take_part(rest_, '\n');
+  has_end_ = whole_.size() < all;
   ++line_;
   return trimmed(whole_);
+}
+
+std::string_view take_part(std::string_view& rest, char separator) {
+  const std::string_view part = rest.substr(0, rest.find(separator));
+  rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+  return part;
+}
+
+bool is_word_of(std::string_view word, std::string_view words) {
+  while (!words.empty())
+    if (same_name(take_part(words, ' '), word)) return true;
+  return false;
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {

@@ -28,6 +28,10 @@ class LineCutter {
   bool has_end_ = true;
 };
 
+/// Returns the part before the next separator, and cuts both off the front of a text.
+std::string_view take_part(std::string_view& rest, char separator);
+/// True if a word, in any case, is one of those in a list, between blanks.
+bool is_word_of(std::string_view word, std::string_view words);
 /// Returns the parts between blanks.
 std::vector<std::string_view> words_of(std::string_view line);
 /// Returns the parts between separators, without blanks around them; between blanks as words_of(), but at

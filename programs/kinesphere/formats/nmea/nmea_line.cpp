@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <vector>
 
 #include "base/ascii_text.hpp"
+#include "base/number_text.hpp"
+#include "formats/fields/clock_days.hpp"
+#include "formats/fields/line_text.hpp"
 #include "formats/fields/wrong_input.hpp"
 #include "formats/nmea/ais_bits.hpp"
 
@@ -191,8 +195,7 @@ std::optional<TimeField> read_head(std::string_view head, NmeaLine& line) {
     begin = head.find('\\', end + 1);
     if (!tag.is_whole()) continue;
     for (std::string_view fields = tag.content; !fields.empty();) {
-      const std::string_view field = fields.substr(0, fields.find(','));
-      fields.remove_prefix(std::min(field.size() + 1, fields.size()));
+      const std::string_view field = take_part(fields, ',');
       if (field.size() < 2 || field[1] != ':') continue;
       const std::string_view value = field.substr(2);
       if (field[0] == 'c') received = time_of_receipt(value);
@@ -244,6 +247,31 @@ bool looks_like_nmea(std::string_view line) {
   // A tag block in a line of its own, or before a sentence of another kind.
   const std::size_t end = line.starts_with('\\') ? line.find('\\', 1) : std::string_view::npos;
   return end != std::string_view::npos && line.substr(0, end).find('*') != std::string_view::npos;
+}
+
+std::optional<GpsFix> gps_fix_in(std::string_view line) {
+  const std::size_t begin = line.find('$');
+  if (begin == std::string_view::npos || line.size() < begin + 7 || line.substr(begin + 3, 4) != "RMC,")
+    return std::nullopt;
+  const CheckedText split = split_checksum(line.substr(begin + 1));
+  if (split.said && !split.is_whole()) return std::nullopt;
+  // Time, validity, latitude and N or S, longitude and E or W, speed, course, date.
+  const auto fields = fields_of(split.content, ',');
+  if (fields.size() < 10 || fields[2] != "A") return std::nullopt;
+  const auto clock = logged_clock(fields[1]);
+  const auto day = logged_date(fields[9]);
+  const auto latitude = degrees_and_minutes(fields[3], fields[4]);
+  const auto longitude = degrees_and_minutes(fields[5], fields[6]);
+  if (!clock || !day || !latitude || !longitude || std::abs(*latitude) > 90.0 || std::abs(*longitude) > 180.0)
+    return std::nullopt;
+  const double whole = std::floor(clock->second);
+  return GpsFix{
+      .time = {86'400 * std::int64_t{day->time_since_epoch().count()} + static_cast<std::int64_t>(whole),
+               clock->second - whole},
+      .longitude = *longitude,
+      .latitude = *latitude,
+      .speed = parse_number(fields[7]),
+      .course = parse_number(fields[8])};
 }
 
 }  // namespace kinesphere::program

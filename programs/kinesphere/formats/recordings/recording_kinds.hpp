@@ -38,12 +38,9 @@ RowTable read_kml(const RecordingText& recording);
 RowTable read_fcd(const RecordingText& recording);
 RowTable read_xyz(const RecordingText& recording);
 RowTable read_lammps(const RecordingText& recording);
-RowTable read_gro(const RecordingText& recording);
-RowTable read_pdb(const RecordingText& recording);
 RowTable read_gps_log(const RecordingText& recording);
 RowTable read_igc(const RecordingText& recording);
 RowTable read_plt(const RecordingText& recording);
-RowTable read_deeplabcut(const RecordingText& recording);
 RowTable read_motion_capture(const RecordingText& recording);
 RowTable read_vissim(const RecordingText& recording);
 RowTable read_pneuma(const RecordingText& recording);
@@ -56,9 +53,6 @@ RowTable read_json_lines(const RecordingText& recording);
 // What a text is by its beginning.
 bool is_igc(std::string_view text);
 bool is_gps_log(std::string_view text);
-bool is_deeplabcut(std::string_view text);
-bool is_gro(std::string_view text);
-bool is_pdb(std::string_view text);
 bool is_xyz(std::string_view text);
 bool is_vissim(std::string_view text);
 bool is_pneuma(std::string_view text);
@@ -80,8 +74,5 @@ bool is_strava(std::string_view text);
 /// Returns the name of the outermost element of XML, without a prefix; empty for other text, and where it
 /// comes later than this beginning.
 std::string_view root_element(std::string_view text);
-
-/// Returns the error for a file of a kind of XML in a program without expat.
-ProgramError without_expat(const std::string& file, std::string_view kind);
 
 }  // namespace kinesphere::program

@@ -11,21 +11,13 @@
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "formats/fields/field_text.hpp"
+#include "formats/fields/line_text.hpp"
 
 namespace kinesphere::program {
 namespace {
 
 /// Larger numbers are not Unix times in seconds.
 constexpr std::int64_t last_likely_second = 100'000'000'000;
-
-bool is_one_of(std::string_view value, std::string_view words) {
-  while (!words.empty()) {
-    const std::string_view word = words.substr(0, words.find(' '));
-    if (same_name(word, value)) return true;
-    words.remove_prefix(std::min(word.size() + 1, words.size()));
-  }
-  return false;
-}
 
 /// True for a time of day such as 9:30, 09:30:15.5, 09:30:15 PM, and for a duration such as 0 days 09:30:15.
 bool is_clock(std::string_view text) {
@@ -108,7 +100,7 @@ void RowReader::set_row(const std::vector<std::string_view>& fields) {
 /// Asks about rows that their file marks as void.
 void RowReader::check_void_columns() const {
   for (const auto& [place, values] : void_columns_) {
-    if (place >= fields_->size() || !is_one_of(field(place), values)) continue;
+    if (place >= fields_->size() || !is_word_of(field(place), values)) continue;
     const std::string name = name_in_filter(head_.names[place]);
     throw OpenQuestion(
         fmt::format("'{}' as {} may mean that there is no such position: leave such rows out with --where "

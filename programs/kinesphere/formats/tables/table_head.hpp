@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,5 +52,10 @@ class TableHeadReader {
   bool is_complete_ = false;
   int rows_below_ = 0;  ///< of the header, that belong to it
 };
+
+/// Returns the number, from 1, of a line below the first whose fields are the usual names of a time or frame
+/// and of two coordinates, as many as the next line has; instruments write what they know of a recording
+/// above it. Nothing if there is none in the first 200 lines.
+std::optional<std::size_t> line_of_later_header(std::string_view text);
 
 }  // namespace kinesphere::program

@@ -1,15 +1,11 @@
 // Columns by their usual names.
-#include "formats/tables/usual_columns.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <initializer_list>
 
 #include "base/program_error.hpp"
-#include "formats/tables/column_units.hpp"
-#include "formats/tables/column_words.hpp"
-#include "formats/tables/likely_columns.hpp"
+#include "formats/tables/column_steps.hpp"
 
 namespace kinesphere::program {
 namespace {
