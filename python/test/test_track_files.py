@@ -62,6 +62,9 @@ def test_rectangles_and_errors(tmp_path: Path) -> None:
     possible = ks.tracks_in(file, 1, sizes=True, error="0.3m", program=program)
     assert list(possible["certain"]) == [False]
     assert list(ks.tracks_in(file, 3, sizes=True, error="0.3m:1m/s", program=program)["certain"]) == [True]
+    assert len(ks.tracks_in(file, 1, sizes=True, acceleration="1m/s2", program=program)) == 0
+    between = ks.tracks_in(file, 1, sizes=True, acceleration="3m/s2", largest_speed="20m/s", program=program)
+    assert list(between["certain"]) == [False]
 
 
 def test_separations_sizes_and_windows(tmp_path: Path) -> None:
