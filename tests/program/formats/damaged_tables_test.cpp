@@ -52,6 +52,11 @@ constexpr std::string_view healthy[] = {
     "{\"time\": 1, \"id\": \"a\", \"pose\": {\"position\": {\"x\": 3, \"y\": 2}}}]",
     "{\"id\":1,\"time\":0,\"x\":1,\"y\":2}\n{\"id\":1,\"time\":1,\"x\":1,\"y\":[3]}\n{\"id\":1,\"time\":2,"
     "\"x\":1,\"y\":4}\n",
+    R"({"header":{"gtfsRealtimeVersion":"2.0","timestamp":"5"},"entity":[{"id":"a","vehicle":{"position":{"latitude":47,)"
+    R"("longitude":8},"timestamp":"1"}},{"id":"a","vehicle":{"position":{"latitude":47,"longitude":8.1},"timestamp":"2"}}]})",
+    R"({"cat":62,"CAT062":{"I010":{"SAC":1,"SIC":2},"I070":{"ToT":1.5},"I105":{"Lat":47,"Lon":8},"I040":{"TrkN":7}}})"
+    "\n"
+    R"({"cat":62,"CAT062":{"I010":{"SAC":1,"SIC":2},"I070":{"ToT":2.5},"I105":{"Lat":47,"Lon":8.1},"I040":{"TrkN":7}}})",
     R"({"icao":"4ca1fa","timestamp":1600000000.5,"trace":[[10,47.1,8.1,1000,100,90,0,64,{"flight":"A"},"adsb_icao",1],)"
     R"([20,47.2,8.2,2000,100,90,1,64,null]]})"};
 

@@ -225,6 +225,8 @@ std::string kind_by_lines(std::string_view text) {
     return fmt::format(elements, "TLE");
   if (has_json_behind_text(lines[0]) || has_json_behind_text(lines[1]))
     return "JSON behind other text: leave that out, with sed -n 's/^[^{]*{/{/p' (-u in a pipe)";
+  if (whole.substr(0, 400).find("\nData Block ") != whole.npos || lines[0].starts_with("Asterix.CAT"))
+    return "ASTERIX as text: write it as JSON, with asterix -j";
   if (lines[0].starts_with("$node_(") || lines[0].starts_with("$ns_ at"))
     return "movements of ns-2, which say where each goes next and how fast: write the time and place at both "
            "ends "

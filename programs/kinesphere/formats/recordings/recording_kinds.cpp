@@ -28,6 +28,8 @@ constexpr RecordingKind kinds[] = {
      [](std::string_view text) { return trimmed(text.substr(0, 100)).starts_with("CCSDS_OEM_VERS"); },
      read_oem},
     {"GeoJSON", is_geojson, read_geojson},
+    {"a feed of GTFS-realtime", is_gtfs, read_gtfs},
+    {"ASTERIX in JSON", is_asterix, read_asterix},
     {"a list of JSON records", is_json_list, read_json_list, true},
     {"JSON records in lines", are_json_lines, read_json_lines, true}};
 

@@ -46,6 +46,8 @@ RowTable read_vissim(const RecordingText& recording);
 RowTable read_pneuma(const RecordingText& recording);
 RowTable read_oem(const RecordingText& recording);
 RowTable read_geojson(const RecordingText& recording);
+RowTable read_gtfs(const RecordingText& recording);
+RowTable read_asterix(const RecordingText& recording);
 RowTable read_json_trace(const RecordingText& recording);
 RowTable read_json_list(const RecordingText& recording);
 RowTable read_json_lines(const RecordingText& recording);
@@ -60,6 +62,8 @@ bool is_plt(std::string_view text);
 bool is_motion_capture(std::string_view text);
 bool is_json_trace(std::string_view text);
 bool is_geojson(std::string_view text);
+bool is_gtfs(std::string_view text);
+bool is_asterix(std::string_view text);
 /// A list of objects.
 bool is_json_list(std::string_view text);
 /// An object in each line.
