@@ -34,6 +34,16 @@ bool ends_in_zone(std::string_view text, DateOrder order) {
   return name.size() >= 2 && are_letters && parse_date_time(text.substr(0, blank), order).has_value();
 }
 
+/// Returns the only order in which the numbers of a date are one; nothing for other text.
+std::optional<DateOrder> only_order_of(std::string_view text) {
+  if (!parse_date_time(text, DateOrder::any) || parse_date_time(text, DateOrder::year_first))
+    return std::nullopt;
+  const bool day_first = parse_date_time(text, DateOrder::day_first).has_value(),
+             month_first = parse_date_time(text, DateOrder::month_first).has_value();
+  if (day_first == month_first) return std::nullopt;
+  return day_first ? DateOrder::day_first : DateOrder::month_first;
+}
+
 /// True for a number that a spreadsheet has rounded: 2.19E+08, which has fewer digits than it should.
 bool is_rounded(std::string_view text) {
   const std::size_t exponent = text.find_first_of("eE"), point = text.find('.');
@@ -236,6 +246,13 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
   std::string_view text = field(column->place);
   if (quantity == Quantity::time) text = with_nanoseconds(with_date(text));
   auto time = time_field(text, columns_.dates);
+  // Only one of the orders of day and month may be possible, as in 20/03/2021.
+  if (!time && columns_.dates == DateOrder::unknown)
+    if (const auto order = only_order_of(text)) {
+      columns_.dates = *order;
+      columns_.format += *order == DateOrder::day_first ? ", dates day first" : ", dates month first";
+      time = time_field(text, *order);
+    }
   if (!time && is_missing(text)) {
     if (!missing_) missing_ = {column->place, "time"};
     return std::nullopt;
