@@ -276,7 +276,8 @@ void add_closeness_options(CLI::App& command, TracksOptions& options) {
   command
       .add_flag(
           "--sizes", options.reading.hints.sizes,
-          "Distances are between rectangles (in 3D spheres) of the columns length and width, which turn as "
+          "Distances are between rectangles (in 3D upright boxes) of the columns length and width, which "
+          "turn as "
           "their heading or their motion says; --pairs has times to collision, post-encroachment times and "
           "decelerations that avoid a crash")
       ->group(group);
@@ -398,7 +399,9 @@ int tracks(const TracksOptions& options) {
   const Closeness closeness = closeness_of(options.distance, options.separation);
   const Interpolation interpolation = interpolation_for(options.errors, options.reading);
   TracksFiles files(options);
-  const TrackSet track_set = read_tracks(options.files, reading_for(closeness, options.reading));
+  TrackSet track_set = read_tracks(options.files, reading_for(closeness, options.reading));
+  // A cylinder has limits of its own along and across the plane, for discs that cover the bodies.
+  if (closeness.vertical) track_set.has_rectangles = false;
   check_closeness(closeness, track_set);
   files.check(track_set);
   const ApproachFilter filter(options.choice, track_set);

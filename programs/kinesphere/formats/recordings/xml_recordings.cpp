@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include "formats/fields/line_text.hpp"
 #include "formats/recordings/recording_kinds.hpp"
 #include "formats/recordings/track_labels.hpp"
+#include "formats/tables/table_columns.hpp"
 
 #ifdef KINESPHERE_WITH_EXPAT
 #include <expat.h>
@@ -226,10 +228,17 @@ class KmlReader final : XmlElements {
 };
 
 /// Vehicles and persons at each time step. Vehicles have their id; those of persons and containers are other
-/// names, so that they begin with the kind.
+/// names, so that they begin with the kind. Sizes are attributes of them, or of their type where the file has
+/// it.
 class FcdReader final : XmlElements {
  public:
-  using XmlElements::XmlElements;
+  FcdReader(const RecordingText& recording, std::string_view kind) : XmlElements(recording, kind) {
+    table_.place_on_body = TableColumns::Place::front;
+    // The heights have to be the last column.
+    if (recording.text.find(" length=") != recording.text.npos)
+      for (const char* const name : sizes) table_.column_of(fmt::format("vehicle_{}", name));
+    height_ = table_.column_of("z");
+  }
 
   RowTable read() {
     read_all();
@@ -240,16 +249,26 @@ class FcdReader final : XmlElements {
  private:
   void begin(std::string_view name, const char** attributes) override {
     if (name == "timestep") time_ = attribute(attributes, "time");
+    const auto value = [&](std::string_view of) { return attribute(attributes, of); };
+    if (name == "vType")
+      for (const char* const size : sizes) types_[value("id") + '/' + size] = value(size);
     if (name != "vehicle" && name != "person" && name != "container") return;
     const std::string kind = name == "vehicle" ? "" : std::string(name) + ' ';
-    const auto value = [&](std::string_view of) { return attribute(attributes, of); };
-    table_.add_row(line(), kind + value("id"), time_, value("x"), value("y"), value("speed"), value("angle"),
-                   value("z"));
+    table_.add_row(line(), kind + value("id"), time_, value("x"), value("y"), value("speed"), value("angle"));
+    for (std::size_t k = 0; first_size + k < height_; ++k) {
+      const std::string own = value(sizes[k]);
+      table_.set(first_size + k, own.empty() ? types_[value("type") + '/' + sizes[k]] : own);
+    }
+    table_.set(height_, value("z"));
   }
   void end(std::string_view) override {}
 
   /// Metres per second, and degrees clockwise from north.
-  RowTable table_{"SUMO FCD", {"vehicle_id", "time", "x", "y", "speed", "course", "z"}};
+  RowTable table_{"SUMO FCD", {"vehicle_id", "time", "x", "y", "speed", "course"}};
+  static constexpr const char* sizes[] = {"length", "width", "height"};
+  static constexpr std::size_t first_size = 6;
+  std::size_t height_;                        ///< column
+  std::map<std::string, std::string> types_;  ///< sizes, by type/name
   std::string time_;
 };
 

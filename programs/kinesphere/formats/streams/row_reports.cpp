@@ -127,6 +127,7 @@ class ReportsOfRows final : public RowReports {
       columns.format = recording_->format;
       columns.has_named_fields = true;
       columns.id_is_file = columns.id_is_file || recording_->is_one_body;
+      if (recording_->place_on_body != TableColumns::Place::middle) columns.place = recording_->place_on_body;
     }
     reader_.emplace(head_, std::move(columns));
     for (const TableColumns::Body& body : reader_->columns().bodies)
@@ -244,6 +245,7 @@ class ReportsOfRows final : public RowReports {
     if (!length || !width || !(*length > 0.0 && *width > 0.0)) return;
     report.written.length = *length;
     report.written.width = *width;
+    report.written.height = std::max(0.0, number(Quantity::body_height).value_or(0.0));
     report.extent = std::hypot(*length, *width) / 2;
   }
 

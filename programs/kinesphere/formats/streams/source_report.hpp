@@ -26,8 +26,8 @@ struct DeclaredError {
 struct WrittenSample {
   std::optional<TimeField> time{};
   Vec3 position{};
-  double length = 0.0, width = 0.0;  ///< metres; 0: not known
-  std::optional<double> heading{};   ///< which way the body points
+  double length = 0.0, width = 0.0, height = 0.0;  ///< of the body, in metres; 0: not known
+  std::optional<double> heading{};                 ///< which way the body points
 };
 
 /// Lengths and times are in the units of the stream: metres and seconds if it has units.

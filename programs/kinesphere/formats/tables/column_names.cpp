@@ -71,6 +71,7 @@ constexpr QuantityNames quantities[quantity_count] = {
     {Quantity::stamp_error, "stamp_error", Measure::time, "stamperror"},
     {Quantity::length, "length", Measure::length, "vehiclelength objectlength"},
     {Quantity::width, "width", Measure::length, "vehiclewidth objectwidth"},
+    {Quantity::body_height, "body_height", Measure::length, "bodyheight vehicleheight objectheight"},
     {Quantity::heading, "heading", Measure::angle, "yaw psi headingangle yawangle"}};
 
 const QuantityNames& names_of(Quantity quantity) { return quantities[static_cast<std::size_t>(quantity)]; }

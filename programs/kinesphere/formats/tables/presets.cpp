@@ -93,7 +93,7 @@ constexpr Preset presets[] = {
     {"sumo",
      "SUMO FCD",
      "id=vehicle_id,time=timestep_time:s,x=vehicle_x,y=vehicle_y,z?=vehicle_z:m,speed?=vehicle_speed,course?="
-     "vehicle_angle,length?=vehicle_length:m,width?=vehicle_width:m",
+     "vehicle_angle,length?=vehicle_length:m,width?=vehicle_width:m,body_height?=vehicle_height:m",
      "timestep_time,vehicle_id,vehicle_x,vehicle_y",
      {.place = TableColumns::Place::front}},
     // Aircraft and vessels.

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "formats/tables/table_columns.hpp"
+
 namespace kinesphere::program {
 
 /// Gathers the fields of rows. A row has few of many columns, or all; the others are empty.
@@ -27,6 +29,7 @@ class RowTable {
   std::vector<std::string> comments;  ///< that stand above a table: "framerate: 25 fps"
   std::vector<std::string> warnings;
   bool is_one_body = false;  ///< all rows are of one body, called like the file
+  TableColumns::Place place_on_body = TableColumns::Place::middle;  ///< where on a body its position is
 
   const std::vector<std::string>& names() const { return names_; }
   std::size_t size() const { return rows_.size(); }

@@ -12,7 +12,8 @@ namespace {
 
 /// True for what --sizes needs of a body.
 bool is_of_shape(Quantity quantity) {
-  return quantity == Quantity::length || quantity == Quantity::width || quantity == Quantity::heading;
+  return quantity == Quantity::length || quantity == Quantity::width || quantity == Quantity::body_height ||
+         quantity == Quantity::heading;
 }
 
 class UsualColumns {
