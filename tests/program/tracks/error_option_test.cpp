@@ -96,6 +96,11 @@ TEST_F(ErrorOption, LimitsBoundWhatABodyMayDoBetweenSamples) {
   // A speed of 2 m/s takes each 10 m there and back.
   EXPECT_EQ(approaches(file, "--distance 9.99 --largest-speed 2m/s").size(), 0u);
   EXPECT_EQ(approaches(file, "--distance 10.01 --largest-speed 2m/s").size(), 1u);
+  // Who goes at nearly that speed has little left for a detour: sqrt(10 * 10 * (10.5^2 - 10^2)) m.
+  const std::string beside =
+      write("beside.csv", "id,time,x_m,y_m\na,0,0,0\na,20,200,0\nb,0,0,80\nb,20,200,80\n");
+  EXPECT_EQ(approaches(beside, "--distance 15.9 --largest-speed 10.5m/s").size(), 0u);
+  EXPECT_EQ(approaches(beside, "--distance 16 --largest-speed 10.5m/s").size(), 1u);
   EXPECT_EQ(approaches(file, "--distance 9.99 --largest-speed 2m/s --acceleration 1m/s2").size(), 0u)
       << "the lesser of the two counts";
   EXPECT_EQ(approaches(file, "--distance 7.99 --largest-speed 2m/s --error 1m").size(), 0u);
