@@ -85,8 +85,9 @@ std::string joined(const std::vector<std::string>& questions) {
 
 bool assume_answer(const std::string& question, ColumnHints& hints) {
   // The first proposal uses a column, the last one keeps rows.
+  const std::size_t say = std::min(question.find("say "), question.size());
   const auto first = [&](std::string_view option) {
-    return word_behind(question, option, question.find(option));
+    return word_behind(question, option, question.find(option, say));
   };
   if (const auto rows = word_behind(question, "--where ", question.rfind("--where "))) {
     hints.where = hints.where.empty() ? *rows : fmt::format("({}) and ({})", hints.where, *rows);
@@ -95,7 +96,7 @@ bool assume_answer(const std::string& question, ColumnHints& hints) {
     hints.format.clear();
   } else if (question.find("say --positions ") != question.npos && hints.positions.empty()) {
     hints.positions = "lonlat";
-  } else if (const auto unit = first("say --time-unit "); unit && hints.time_unit.empty()) {
+  } else if (const auto unit = first("--time-unit "); unit && hints.time_unit.empty()) {
     hints.time_unit = *unit;
   } else if (question.find("--frame-rate") != question.npos && !hints.frame_rate) {
     hints.frame_rate = 1.0;
@@ -119,7 +120,8 @@ void ask_all(ColumnHints hints, const std::function<void(const ColumnHints&)>& r
         continue;
       }
       ColumnHints answered = hints;
-      if (!assume_answer(question, answered)) {
+      const bool is_known = std::ranges::find(questions, question) != questions.end();
+      if (is_known || !assume_answer(question, answered)) {
         // An error with what was assumed may be none with the right answers.
         if (questions.empty()) throw;
         break;

@@ -1,6 +1,7 @@
 // ASTERIX as its decoders write it in JSON, and feeds of GTFS-realtime.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinesphere/random.hpp"
@@ -144,6 +145,16 @@ TEST(Asterix, IsReadAsEachDecoderWritesIt) {
   }
 }
 
+TEST(Asterix, LateReportsAreFromBeforeMidnight) {
+  auto plots = drawn_plots(62, 86'396.0);
+  // Of the other aircraft that of the last second of the day comes behind the first of the next.
+  std::rotate(plots.begin() + 7, plots.begin() + 8, plots.begin() + 9);
+  const TrackSet found = parse(written(plots, Decoder::lines));
+  ASSERT_EQ(found.tracks.size(), 2u);
+  for (const RecordedTrack& track : found.tracks)
+    EXPECT_NEAR(track.samples.back().time - track.samples.front().time, 4.0, 1e-9) << track.id;
+}
+
 TEST(Asterix, TakesGeometricHeightsWhereAsked) {
   TrackOptions options;
   options.altitude = FormatChoices::Altitude::geometric;
@@ -157,7 +168,8 @@ TEST(Asterix, KnowsAircraftByTheAddressOfTheirTrack) {
   plots[0].address.clear();
   const TrackSet found = parse(written(plots, Decoder::lines));
   ASSERT_EQ(found.tracks.size(), 2u);
-  EXPECT_EQ(found.tracks[0].samples.size(), 5u) << "its track number has that address later";
+  for (const RecordedTrack& track : found.tracks)
+    EXPECT_EQ(track.samples.size(), 5u) << "the track number of " << track.id << " has an address later";
   for (Plot& plot : plots) plot.address.clear();
   EXPECT_EQ(parse(written(plots, Decoder::python)).tracks[1].id, "track 41 (cat 62 of 25/7)");
 }

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -13,7 +13,7 @@
 #include "formats/fields/clock_days.hpp"
 #include "formats/fields/line_text.hpp"
 #include "formats/fields/wrong_input.hpp"
-#include "formats/nmea/ais_bits.hpp"
+#include "formats/nmea/ais_message.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -68,19 +68,12 @@ std::string_view without_marks(std::string_view text) {
 }
 
 AisSentence sentence_of(std::string_view content) {
-  std::string_view fields[7];
-  std::size_t count = 0;
-  for (std::string_view rest = content; count < std::size(fields); ++count) {
-    fields[count] = rest.substr(0, rest.find(','));
-    if (fields[count].size() == rest.size()) {
-      ++count;
-      break;
-    }
-    rest.remove_prefix(fields[count].size() + 1);
-  }
-  if (count != std::size(fields) || std::ranges::count(content, ',') != 6)
-    throw MalformedRecord(fmt::format("expected 7 fields of a sentence of AIS, but got {}",
-                                      std::ranges::count(content, ',') + 1));
+  std::array<std::string_view, 7> fields;
+  const auto count = std::ranges::count(content, ',') + 1;
+  if (count != std::ssize(fields))
+    throw MalformedRecord(fmt::format("expected 7 fields of a sentence of AIS, but got {}", count));
+  std::string_view rest = content;
+  for (std::string_view& field : fields) field = take_part(rest, ',');
   const auto of = digit_in(fields[1], '1', '9'), number = digit_in(fields[2], '1', '9');
   const auto fill_bits = digit_in(fields[6], '0', '5');
   if (!of || !number || *number > *of)
@@ -104,23 +97,18 @@ AisSentence sentence_of(std::string_view content) {
 
 /// Returns the time of PGHP,1,YEAR,MONTH,DAY,HOUR,MINUTE,SECOND,MILLISECOND,...; nothing for other text.
 std::optional<TimeField> time_of_pghp(std::string_view content) {
-  std::vector<std::string_view> fields;
-  for (std::string_view rest = content;; rest.remove_prefix(fields.back().size() + 1)) {
-    fields.push_back(rest.substr(0, rest.find(',')));
-    if (fields.back().size() == rest.size()) break;
-  }
+  const auto fields = fields_of(content, ',');
   if (fields.size() < 9 || fields[1] != "1") return std::nullopt;
-  int numbers[7] = {};
+  std::size_t numbers[7] = {};
   for (std::size_t k = 0; k < std::size(numbers); ++k) {
-    const std::string_view field = fields[k + 2];
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), numbers[k]);
-    if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
+    const auto number = count_in(fields[k + 2]);
+    if (!number) return std::nullopt;
+    numbers[k] = *number;
   }
   const auto [year, month, day, hour, minute, second, millisecond] = numbers;
   const auto date = parse_date_time(fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}", year, month, day,
                                                 hour, minute, second, millisecond));
-  if (!date) return std::nullopt;
-  return TimeField{date->time, TimeKind::number};
+  return date ? std::optional(TimeField{date->time, TimeKind::number}) : std::nullopt;
 }
 
 /// Returns where !--VDM or !--VDO of any talker begins in the text; npos if it has none.

@@ -13,7 +13,6 @@
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/fields/clock_days.hpp"
 #include "formats/recordings/recording_kinds.hpp"
 #include "formats/tables/json_rows.hpp"
 
@@ -136,10 +135,20 @@ class AsterixReader {
       ++incomplete_;
       return;
     }
-    const auto day = days_.day_of({*second, {}});
-    report.time += 86'400.0 * static_cast<double>(day.time_since_epoch().count());
+    report.time += 86'400.0 * day_of(*second);
     if (!report.address.empty()) addresses_[report.sensor + report.track].insert(report.address);
     reports_.push_back(std::move(report));
+  }
+
+  /// Returns the days since the first midnight. A clock that falls by half a day has passed another one; one
+  /// that is as much ahead is late, from before it.
+  int day_of(double second) {
+    constexpr double half_a_day = 43'200.0;
+    const double ahead = second - last_second_.value_or(second);
+    if (ahead < -half_a_day) ++midnights_;
+    const bool is_late = ahead > half_a_day && midnights_ > 0;
+    if (!is_late) last_second_ = second;
+    return midnights_ - (is_late ? 1 : 0);
   }
 
   /// Sets x and y, from the radar. Without its own calculation they are those of the slant range.
@@ -194,7 +203,8 @@ class AsterixReader {
 
   const RecordingText& recording_;
   std::size_t line_ = 1, incomplete_ = 0, slant_ = 0;
-  PassingDays days_{std::chrono::sys_days{}};
+  std::optional<double> last_second_;  ///< of the day
+  int midnights_ = 0;
   std::vector<AsterixReport> reports_;
   std::map<std::string, std::set<std::string>> addresses_;  ///< by sensor and track number
 };
