@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "base/ascii_text.hpp"
-
 namespace kinesphere::program {
 
 std::optional<std::string_view> LineCutter::next() {
@@ -15,18 +13,6 @@ std::optional<std::string_view> LineCutter::next() {
   has_end_ = whole_.size() < all;
   ++line_;
   return trimmed(whole_);
-}
-
-std::string_view take_part(std::string_view& rest, char separator) {
-  const std::string_view part = rest.substr(0, rest.find(separator));
-  rest.remove_prefix(std::min(part.size() + 1, rest.size()));
-  return part;
-}
-
-bool is_word_of(std::string_view word, std::string_view words) {
-  while (!words.empty())
-    if (same_name(take_part(words, ' '), word)) return true;
-  return false;
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {

@@ -37,7 +37,11 @@ RowTable read_vissim(const RecordingText& recording) {
                       recording.file, lines.line(), columns.size(), fields.size()));
     table.begin_row(lines.line());
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      const auto parts = joint[k].empty() ? std::vector{fields[k]} : words_of(fields[k]);
+      if (joint[k].empty()) {
+        table.set(columns[k], fields[k]);
+        continue;
+      }
+      const auto parts = words_of(fields[k]);
       for (std::size_t axis = 0; axis < std::min<std::size_t>(parts.size(), 3); ++axis)
         table.set(axis == 0 ? columns[k] : table.column_of(joint[k] + "XYZ"[axis]), parts[axis]);
     }

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -46,7 +47,10 @@ class RowTable {
   template <class Value>
   void set(std::size_t column, const Value& value) {
     const auto begin = static_cast<std::ptrdiff_t>(text_.size());
-    fmt::format_to(std::back_inserter(text_), "{}", value);
+    if constexpr (std::is_convertible_v<const Value&, std::string_view>)
+      text_.append(std::string_view(value));
+    else
+      fmt::format_to(std::back_inserter(text_), "{}", value);
     std::replace_if(
         text_.begin() + begin, text_.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
     fields_.push_back({column, text_.size()});
