@@ -67,7 +67,7 @@ def tracks_in(
     are then possible ones, and "certain" says which are certain.
     largest_speed, acceleration: what bodies keep between their samples, as "20kt" and "2m/s2"; both bound how far they
     may be from the straight way, which they then go.
-    sizes: distances are between bodies as wide and long as the file says, which are turned as its headings or their
+    sizes: distances are between bodies as wide, long and tall as the file says, which are turned as its headings or their
     motion say; heading: what headings count from, if that shows it not. from_, until: a window of time, as
     numbers or dates of the file. only: approaches of this id, or of these. min_duration: in seconds.
     format: a known tool, such as "movebank", where the header does not tell it. columns: which column is what,

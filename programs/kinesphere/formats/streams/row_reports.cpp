@@ -67,6 +67,7 @@ class ReportsOfRows final : public RowReports {
   nlohmann::json save() const override {
     nlohmann::json state{{"midnights", midnights_}};
     if (last_clock_) state["clock"] = *last_clock_;
+    if (reader_) state["dates"] = static_cast<int>(reader_->columns().dates);
     return state;
   }
   void restore(const nlohmann::json& state) override {
@@ -74,6 +75,8 @@ class ReportsOfRows final : public RowReports {
     if (state.contains("clock")) last_clock_ = state.at("clock").get<std::int64_t>();
     if (head_.columns() > 0) begin();
     has_handed_over_ = reader_.has_value();
+    if (reader_ && state.contains("dates"))
+      reader_->set_dates(static_cast<DateOrder>(state.at("dates").get<int>()));
     // The earlier run has asked.
     if (reader_) checked_ = most_checked;
     is_checking_clock_ = false;
