@@ -18,8 +18,7 @@ constexpr std::size_t most_questions = 12;
 bool asks_for_dates(std::string_view question) { return question.find("--dates day-first") != question.npos; }
 
 /// Returns the word of a shell behind an option at a place in a text; nothing where there is none, or one
-/// with
-/// ... for the user to fill in.
+/// that the user has to complete.
 std::optional<std::string> word_behind(std::string_view text, std::string_view option, std::size_t at) {
   if (at == text.npos) return std::nullopt;
   text.remove_prefix(at + option.size());

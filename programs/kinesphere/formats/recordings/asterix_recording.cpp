@@ -26,24 +26,42 @@ using simdjson::dom::element;
 /// in flight levels.
 struct CategoryItems {
   int category;
-  std::string_view time, address, track, longitude, latitude, x, y, range, azimuth, barometric, geometric, vx,
-      vy;
+  std::string_view time, address, track;
+  std::string_view longitude{}, latitude{}, x{}, y{}, range{}, azimuth{};
+  std::string_view barometric{}, geometric{}, vx{}, vy{};
 };
 constexpr CategoryItems categories[] = {
-    {21,
-     "073/time_reception_position|073/Time of Message Reception for Position|071/time_applicability_position|"
-     "071/Time of Applicability for Position|077/time_report_transmission|077/Time of ASTERIX Report "
-     "Transmission|"
-     "077/Time of Report Transmission|030/ToD|030/Time of Day",
-     "080/TAddr|080/Target Address", "161/TrackN|161/Track Number",
-     "131/Lon|131/Longitude|130/Lon|130/Longitude", "131/Lat|131/Latitude|130/Lat|130/Latitude", "", "", "",
-     "", "145/FL*100|145/Flight Level*100", "140/geometric_height|140/Geometric Height", "", ""},
-    {48, "140/ToD|140/Time of Day", "220/ACAddr|220/Aircraft Address", "161/Tn|161/Track Number", "", "",
-     "042/X|042/X-Component", "042/Y|042/Y-Component", "040/RHO", "040/THETA",
-     "090/FL*100|090/Flight Level*100", "110/3D_Height|110/3D Height", "", ""},
-    {62, "070/ToT|070/Time of Track Information", "380/ADR/ADR|380/ADR/Target Address",
-     "040/TrkN|040/Track Number", "105/Lon|105/Longitude", "105/Lat|105/Latitude", "", "", "", "",
-     "136/MFL|136/Measured Flight Level*100", "130/Alt|130/Altitude", "185/Vx", "185/Vy"}};
+    {.category = 21,
+     .time = "073/time_reception_position|073/Time of Message Reception for Position|"
+             "071/time_applicability_position|071/Time of Applicability for Position|"
+             "077/time_report_transmission|077/Time of ASTERIX Report Transmission|"
+             "077/Time of Report Transmission|030/ToD|030/Time of Day",
+     .address = "080/TAddr|080/Target Address",
+     .track = "161/TrackN|161/Track Number",
+     .longitude = "131/Lon|131/Longitude|130/Lon|130/Longitude",
+     .latitude = "131/Lat|131/Latitude|130/Lat|130/Latitude",
+     .barometric = "145/FL*100|145/Flight Level*100",
+     .geometric = "140/geometric_height|140/Geometric Height"},
+    {.category = 48,
+     .time = "140/ToD|140/Time of Day",
+     .address = "220/ACAddr|220/Aircraft Address",
+     .track = "161/Tn|161/Track Number",
+     .x = "042/X|042/X-Component",
+     .y = "042/Y|042/Y-Component",
+     .range = "040/RHO",
+     .azimuth = "040/THETA",
+     .barometric = "090/FL*100|090/Flight Level*100",
+     .geometric = "110/3D_Height|110/3D Height"},
+    {.category = 62,
+     .time = "070/ToT|070/Time of Track Information",
+     .address = "380/ADR/ADR|380/ADR/Target Address",
+     .track = "040/TrkN|040/Track Number",
+     .longitude = "105/Lon|105/Longitude",
+     .latitude = "105/Lat|105/Latitude",
+     .barometric = "136/MFL|136/Measured Flight Level*100",
+     .geometric = "130/Alt|130/Altitude",
+     .vx = "185/Vx",
+     .vy = "185/Vy"}};
 
 /// Returns an item of a record, I062/105 as "I105" or "105".
 std::optional<element> item_of(element record, std::string_view number) {
