@@ -11,8 +11,10 @@
 #include <string>
 #include <utility>
 
+#include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
+#include "formats/fields/field_text.hpp"
 #include "formats/fields/suspicions.hpp"
 #include "formats/tables/presets.hpp"
 #include "formats/tables/row_reader.hpp"
