@@ -40,6 +40,8 @@ def tracks_in(
     outside: Literal["vanish", "stay", "go-on"] = "vanish",
     tolerance: Optional[float] = None,
     error: Optional[str] = None,
+    largest_speed: Optional[str] = None,
+    acceleration: Optional[str] = None,
     sizes: bool = False,
     heading: Optional[Literal["motion", "x-axis", "compass"]] = None,
     same: Union[str, Sequence[str], Mapping[str, str], None] = None,
@@ -63,7 +65,9 @@ def tracks_in(
     "cylinder:5NM:1000ft"; approaches then have horizontal_distance and vertical_distance, too.
     error: how far positions may be off, at samples and for each second from the nearest one, as "10m:2m/s"; approaches
     are then possible ones, and "certain" says which are certain.
-    sizes: distances are between bodies as wide and long as the file says, which are turned as its headings or their
+    largest_speed, acceleration: what bodies keep between their samples, as "20kt" and "2m/s2"; both bound how far they
+    may be from the straight way, which they then go.
+    sizes: distances are between bodies as wide, long and tall as the file says, which are turned as its headings or their
     motion say; heading: what headings count from, if that shows it not. from_, until: a window of time, as
     numbers or dates of the file. only: approaches of this id, or of these. min_duration: in seconds.
     format: a known tool, such as "movebank", where the header does not tell it. columns: which column is what,
@@ -99,7 +103,7 @@ def tracks_in(
         "format": format, "columns": columns, "where": where, "dates": dates, "frame_rate": frame_rate,
         "time_unit": time_unit, "unit": unit, "positions": positions, "projection": projection,
         "altitude": altitude, "missing": missing, "duplicates": duplicates, "max_speed": max_speed,
-        "max_gap": max_gap, "plan": plan, "interpolate": interpolate, "outside": outside, "tolerance": tolerance, "error": error, "sizes": sizes,
+        "max_gap": max_gap, "plan": plan, "interpolate": interpolate, "outside": outside, "tolerance": tolerance, "error": error, "largest_speed": largest_speed, "acceleration": acceleration, "sizes": sizes,
         "heading": heading,
         "same": joined, "ignore": ignore, "count_handovers": count_handovers, "ground": ground,
         "from": from_, "until": until, "only": ids, "min_duration": min_duration,

@@ -62,6 +62,9 @@ def test_rectangles_and_errors(tmp_path: Path) -> None:
     possible = ks.tracks_in(file, 1, sizes=True, error="0.3m", program=program)
     assert list(possible["certain"]) == [False]
     assert list(ks.tracks_in(file, 3, sizes=True, error="0.3m:1m/s", program=program)["certain"]) == [True]
+    assert len(ks.tracks_in(file, 1, sizes=True, acceleration="1m/s2", program=program)) == 0
+    between = ks.tracks_in(file, 1, sizes=True, acceleration="5m/s2", largest_speed="20m/s", program=program)
+    assert list(between["certain"]) == [False, False], "at their samples they are where they say"
 
 
 def test_separations_sizes_and_windows(tmp_path: Path) -> None:
@@ -75,7 +78,8 @@ def test_separations_sizes_and_windows(tmp_path: Path) -> None:
     )
     flat = ks.tracks_in(file, separation="cylinder:5m:2m", unit="m", program=program)
     assert len(flat) == 1 and flat["vertical_distance"][0] == pytest.approx(1.0)
-    assert ks.tracks_in(file, 5, sizes=True, program=program)["closest_distance"][0] < -3
+    above = ks.tracks_in(file, 5, sizes=True, program=program)
+    assert above["closest_distance"][0] == pytest.approx(1.0)
     assert [len(ks.tracks_in(file, 13, only=ids, program=program)) for ids in ("c", ["a", "c"])] == [2, 3]
     assert len(ks.tracks_in(file, 13, from_=0.5, until=1.5, min_duration=0.9, program=program)) == 2
     assert len(ks.tracks_in(file, 5, from_=1.9, program=program)) == 0

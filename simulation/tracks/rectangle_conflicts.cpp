@@ -67,7 +67,8 @@ class EncroachmentOfRectangles {
     if (least >= found_.seconds - shortest_) return;
     const RectanglePose a = first.piece->pose(first.middle()), b = second.piece->pose(second.middle());
     const double moves = moved(first, first_) + moved(second, second_);
-    if (norm(b.position - a.position) - first_.reach() - second_.reach() > moves) return;
+    const Vec3 way = b.position - a.position;
+    if (std::hypot(way.x, way.y) - first_.reach() - second_.reach() > moves) return;
     const double turns =
         std::abs(first.piece->turn_rate) * first.half() + std::abs(second.piece->turn_rate) * second.half();
     const double angle = angle_between(a.heading, b.heading);

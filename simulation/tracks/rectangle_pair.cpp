@@ -41,7 +41,9 @@ double RectanglePair::fastest(const Piece& piece, double from, double to) const 
          norm(a.acceleration_at(middle) - b.acceleration_at(middle)) * half +
          0.5 * norm(a.jerk - b.jerk) * half * half + std::abs(piece.first.turn_rate) * first_.reach() +
          std::abs(piece.second.turn_rate) * second_.reach() +
-         (errors_ == nullptr ? 0.0 : 2.0 * errors_->growth);
+         (errors_ == nullptr
+              ? 0.0
+              : errors_->steepest(first_track_, from, to) + errors_->steepest(second_track_, from, to));
 }
 
 int RectanglePair::parts_of(const Piece& piece) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "number/infinity.hpp"
 #include "simulation/tracks/time_to_collision.hpp"
@@ -92,10 +93,16 @@ double RectangleBody::heading_at(double t) const {
 
 double gap_between(const RectangleBody& first, const RectanglePose& at, const RectangleBody& second,
                    const RectanglePose& other) {
-  const double radii = first.radius + second.radius;
-  if (first.length == 0.0 && second.length == 0.0) return norm(other.position - at.position) - radii;
+  const double radii = first.radius + second.radius, heights = first.height + second.height;
+  const bool are_round = first.length == 0.0 && second.length == 0.0, has_heights = std::isfinite(heights);
+  if (are_round && !has_heights) return norm(other.position - at.position) - radii;
   const Vec3 way = flat(other.position - at.position);
-  return gap_of(way, HalfAxes(first, at.heading), HalfAxes(second, other.heading)) - radii;
+  const double beside =
+      (are_round ? norm(way) : gap_of(way, HalfAxes(first, at.heading), HalfAxes(second, other.heading))) -
+      radii;
+  if (!has_heights) return beside;
+  const double above = std::abs(other.position.z - at.position.z) - 0.5 * heights;
+  return above > 0.0 ? std::hypot(std::max(beside, 0.0), above) : std::max(beside, above);
 }
 
 double time_to_touch(const RectangleBody& first, const RectanglePose& at, const RectangleBody& second,
@@ -103,15 +110,20 @@ double time_to_touch(const RectangleBody& first, const RectanglePose& at, const 
   const Vec3 way = flat(other.position - at.position), velocity = flat(other.velocity - at.velocity);
   const double radii = first.radius + second.radius;
   const HalfAxes a(first, at.heading), b(second, other.heading);
-  if (first.length == 0.0 && second.length == 0.0) return time_to_collision(way, velocity, radii);
-  if (gap_of(way, a, b) <= radii) return 0.0;
+  const double heights = first.height + second.height;
+  const bool are_round = first.length == 0.0 && second.length == 0.0, has_heights = std::isfinite(heights);
+  if (are_round && !has_heights) return time_to_collision(way, velocity, radii);
+  if (gap_between(first, at, second, other) <= 0.0) return 0.0;
   // While their projections on all axes overlap, rectangles do, and bodies with round corners may.
   double from = 0.0, to = infinity;
   // Of two that go alike, rounding brings none nearer.
   const double rounding = 0x1p-40 * (norm(at.velocity) + norm(other.velocity));
-  for (const Vec3& axis : axes_of(a, b)) {
-    const double distance = dot(way, axis), speed = dot(velocity, axis);
-    const double reach = a.reach(axis) + b.reach(axis) + radii;
+  const std::array<Vec3, 5> axes{a.direction, a.right(), b.direction, b.right(), Vec3{0.0, 0.0, 1.0}};
+  for (const Vec3& axis : std::span(axes).first(has_heights ? 5 : 4)) {
+    const bool is_upward = &axis == &axes.back();
+    const double distance = dot(other.position - at.position, axis),
+                 speed = dot(other.velocity - at.velocity, axis);
+    const double reach = is_upward ? 0.5 * heights : a.reach(axis) + b.reach(axis) + radii;
     const bool stays = std::abs(speed) <= rounding;
     if (stays && std::abs(distance) > reach) return infinity;
     if (stays) continue;

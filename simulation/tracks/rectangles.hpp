@@ -1,7 +1,8 @@
-// Bodies that are rectangles in the plane, and turn as their tracks say.
+// Bodies that are rectangles in the plane, or upright boxes, and turn as their tracks say.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "kinesphere/motion/motion.hpp"
@@ -9,20 +10,23 @@
 namespace kinesphere {
 
 /// A rectangle whose middle follows a track; or a sphere, as a disc where a heading is not known, or a point.
+/// With a finite height it is an upright box, or an upright cylinder for a disc, around that middle.
 struct RectangleBody {
   double length = 0.0, width = 0.0;  ///< along and across the heading; 0 for a sphere
   double radius = 0.0;               ///< of a sphere; 0 for a rectangle
+  /// Upright, 0 for a plate. Infinite: z does not count beside a rectangle.
+  double height = std::numeric_limits<double>::infinity();
   /// Times and headings, in radians counterclockwise from the x axis, each less than half a turn from the one
   /// before. Between two times the body turns steadily, and before the first and after the last not at all.
   std::vector<double> times, headings;
 
-  /// Radius of a disc that covers the body.
+  /// Radius of a disc that covers the body, seen from above.
   double reach() const;
   /// Returns the heading at a time; 0 for a body without any.
   double heading_at(double t) const;
 };
 
-/// Where a body is, how it moves, and how it is turned. Beside a rectangle z counts as 0.
+/// Where a body is, how it moves, and how it is turned.
 struct RectanglePose {
   Vec3 position, velocity;
   double heading = 0.0;

@@ -154,7 +154,10 @@ void add_conflict(PairSummary& pair, const Approach& approach, const Motion& mot
 std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const TrackSet& track_set,
                                   const Motion& motion) {
   const std::vector<double> radii = radii_of(track_set);
-  const std::vector<RectangleBody> shapes = shapes_of(track_set);
+  std::vector<RectangleBody> shapes = shapes_of(track_set);
+  // Two whose heights are not known come upon each other where they do so seen from above.
+  for (RectangleBody& shape : shapes)
+    if (shape.height == 0.0) shape.height = infinity;
   std::vector<PairSummary> pairs;
   std::map<std::pair<std::string, std::string>, std::size_t> known;
   for (const Approach& approach : approaches) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/program_error.hpp"
-#include "formats/tables/column_words.hpp"
+#include "formats/tables/column_steps.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere::program {
@@ -32,7 +32,8 @@ std::vector<Course> courses_of(const RawTrackSet& raw, const Coordinates& coordi
         from = &sample;
         continue;
       }
-      const Vec3 way = coordinates.local(sample.position) - coordinates.local(from->position);
+      Vec3 way = coordinates.local(sample.position) - coordinates.local(from->position);
+      way.z = 0.0;
       if (norm(way) < 0.5 * track.width || norm(way) == 0.0) continue;
       if (from->heading && sample.heading) courses.push_back({*sample.heading, std::atan2(way.y, way.x)});
       from = &sample;
@@ -101,7 +102,8 @@ void add_heading(RectangleBody& body, double time, double heading, double period
 void add_directions(RectangleBody& body, const Piece& piece) {
   const TrackSample* from = &piece.front().sample;
   for (const PlacedSample& placed : piece) {
-    const Vec3 way = placed.sample.position - from->position;
+    Vec3 way = placed.sample.position - from->position;
+    way.z = 0.0;
     if (norm(way) < 0.5 * body.width) continue;
     // A rectangle that goes back looks as one that has turned by half.
     add_heading(body, 0.5 * (from->time + placed.sample.time), std::atan2(way.y, way.x), half_turn);
@@ -145,10 +147,11 @@ HeadingScale heading_scale_of(const RawTrackSet& raw, const TrackOptions& option
   return scale_by_motion(raw, coordinates, *heading, options.heading_from, name);
 }
 
-RectangleBody rectangle_of(Piece& piece, double length, double width, const HeadingScale& scale,
+RectangleBody rectangle_of(Piece& piece, const RectangleBody& size, const HeadingScale& scale,
                            TableColumns::Place place) {
-  RectangleBody body{.length = length, .width = width};
-  if (!(length > 0.0 && width > 0.0)) return {};
+  const auto [length, width] = std::pair(size.length, size.width);
+  RectangleBody body = size;
+  if (!(length > 0.0 && width > 0.0)) return {.height = size.height};
   if (scale.is_of_motion) {
     add_directions(body, piece);
   } else {
@@ -163,7 +166,7 @@ RectangleBody rectangle_of(Piece& piece, double length, double width, const Head
     const double heading = body.heading_at(placed.sample.time);
     position -= Vec3{std::cos(heading), std::sin(heading), 0.0} * (0.5 * length);
   }
-  if (body.times.empty()) return {.radius = 0.5 * std::hypot(length, width)};
+  if (body.times.empty()) return {.radius = 0.5 * std::hypot(length, width), .height = size.height};
   return body;
 }
 

@@ -29,10 +29,10 @@ HeadingScale heading_scale_of(const RawTrackSet& raw, const TrackOptions& option
                               const Coordinates& coordinates);
 
 /// Returns the rectangle of a body with these samples, which are moved to its middle where `place` says that
-/// they are not there. Without headings in the file it points where it goes, and backs as it came; a body
-/// that moves less than half its width, and has none, is a disc around the rectangle. A size of 0 gives a
-/// point.
-RectangleBody rectangle_of(Piece& piece, double length, double width, const HeadingScale& scale,
+/// they are not there; `size` has its length, width and height. Without headings in the file it points where
+/// it goes, and backs as it came; a body that moves less than half its width, and has none, is a disc around
+/// the rectangle. A size of 0 gives a point.
+RectangleBody rectangle_of(Piece& piece, const RectangleBody& size, const HeadingScale& scale,
                            TableColumns::Place place);
 
 }  // namespace kinesphere::program

@@ -16,8 +16,8 @@
 #include "formats/fields/units.hpp"
 #include "formats/recordings/file_kind.hpp"
 #include "formats/recordings/recording_kinds.hpp"
-#include "formats/tables/header_line.hpp"
 #include "formats/tables/row_reader.hpp"
+#include "formats/tables/table_head.hpp"
 #include "tracks/midnights.hpp"
 
 namespace kinesphere::program {
@@ -94,6 +94,7 @@ class RawTrackSet::FileReader final : public ReportSink {
       track.radius = std::max(track.radius, report.extent);
       track.length = std::max(track.length, report.written.length);
       track.width = std::max(track.width, report.written.width);
+      track.height = std::max(track.height, report.written.height);
       add_scenes(*report.row, time.time);
     }
     track.samples.push_back({time.time, position, place_, is_on_ground, report.written.heading});

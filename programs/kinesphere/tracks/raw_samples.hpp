@@ -35,13 +35,13 @@ struct RawSample {
 /// The samples of one id.
 struct RawTrack {
   std::string id;
-  std::vector<RawSample> samples;    ///< in the order of the rows
-  double radius = 0.0;               ///< of a disc that covers the body (metres); 0 where no size is known
-  double length = 0.0, width = 0.0;  ///< the largest of all rows (metres)
-  std::size_t forward = 0, backward = 0;  ///< rows that are later, or earlier, than the row before
-  Place first_backward;                   ///< row
-  bool is_joined = false;                 ///< --same names it, so that its rows may be in any order
-  std::size_t placeless = 0;              ///< rows and messages that have no time or no position
+  std::vector<RawSample> samples;  ///< in the order of the rows
+  double radius = 0.0;             ///< of a disc that covers the body (metres); 0 where no size is known
+  double length = 0.0, width = 0.0, height = 0.0;  ///< the largest of all rows (metres)
+  std::size_t forward = 0, backward = 0;           ///< rows that are later, or earlier, than the row before
+  Place first_backward;                            ///< row
+  bool is_joined = false;                          ///< --same names it, so that its rows may be in any order
+  std::size_t placeless = 0;                       ///< rows and messages that have no time or no position
   /// A row without a position whose time counts. Times of rows that MissingPolicy::skip leaves out do not: a
   /// receiver without a fix may write any.
   struct Placeless {

@@ -12,12 +12,12 @@
 
 #include "base/input_file.hpp"
 #include "base/program_error.hpp"
-#include "formats/fields/degree_check.hpp"
-#include "formats/fields/time_check.hpp"
+#include "formats/fields/suspicions.hpp"
 #include "tracks/cleaning.hpp"
 #include "tracks/echoes.hpp"
 #include "tracks/handovers.hpp"
 #include "tracks/headings.hpp"
+#include "tracks/questions.hpp"
 #include "tracks/raw_samples.hpp"
 
 namespace kinesphere::program {
@@ -187,7 +187,8 @@ std::optional<std::string> warning_about_lone_tracks(const TrackSet& track_set) 
 /// The pieces of one id, before they are split at gaps.
 struct Body {
   std::string id;
-  double radius, length, width;
+  double radius;
+  RectangleBody size;
   std::vector<Piece> pieces;
   std::vector<double> placeless;  ///< times of rows without a position, in order
   Presence presence;              ///< without what became tracks
@@ -215,7 +216,7 @@ class Reading {
       track_set_.unused.push_back(raw.head().names.empty() ? fmt::format("{}", column + 1)
                                                            : raw.head().names[column]);
     track_set_.smallest_max_gap = std::numeric_limits<double>::infinity();
-    track_set_.has_rectangles = track_set_.has_sizes && track_set_.is_plane;
+    track_set_.has_rectangles = track_set_.has_sizes && track_set_.coordinates.are_plane();
     if (!track_set_.has_rectangles) return;
     headings_ = heading_scale_of(raw, options, track_set_.coordinates);
     track_set_.headings = headings_.text;
@@ -241,7 +242,11 @@ class Reading {
 
  private:
   Body cleaned(const RawTrack& track) {
-    Body body{.id = track.id, .radius = track.radius, .length = track.length, .width = track.width};
+    Body body{.id = track.id, .radius = track.radius, .size = {.length = track.length, .width = track.width}};
+    if (raw_.columns().z()) {
+      body.size.height = track.height;
+      body.radius = std::hypot(body.radius, 0.5 * track.height);
+    }
     Piece samples;
     samples.reserve(track.samples.size());
     for (const RawSample& sample : track.samples) {
@@ -300,7 +305,7 @@ class Reading {
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       RecordedTrack track{.id = body.id, .samples = {}, .radius = body.radius};
       if (track_set_.has_rectangles)
-        track.shape = rectangle_of(pieces[k], body.length, body.width, headings_, raw_.columns().place);
+        track.shape = rectangle_of(pieces[k], body.size, headings_, raw_.columns().place);
       for (const PlacedSample& sample : pieces[k]) track.samples.push_back(sample.sample);
       if (options_.outside != Outside::vanish) reach_outside(track, k == 0, k + 1 == pieces.size());
       if (track.samples.size() == 1) {
@@ -371,13 +376,11 @@ void check(const TrackOptions& options) {
     throw ProgramError(fmt::format("--max-speed: expected a number > 0, but got {}", *options.max_speed));
 }
 
-}  // namespace
-
-TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options) {
-  check(options);
+/// Throws ProgramError, at the first thing that is asked about.
+TrackSet parse_once(const std::vector<NamedText>& texts, const TrackOptions& options) {
   RawTrackSet raw(options, texts.size() > 1);
   std::vector<std::string> files;
-  for (NamedText& text : texts) {
+  for (const NamedText& text : texts) {
     files.push_back(text.file);
     raw.read(text.text, text.file);
   }
@@ -414,6 +417,19 @@ TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options)
         all_files, track_set.largest_max_gap));
   }
   return track_set;
+}
+
+}  // namespace
+
+TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options) {
+  check(options);
+  std::optional<TrackSet> found;
+  ask_all(options.hints, [&](const ColumnHints& hints) {
+    TrackOptions hinted = options;
+    hinted.hints = hints;
+    found.emplace(parse_once(texts, hinted));
+  });
+  return std::move(*found);
 }
 
 std::vector<NamedText> read_texts(const std::vector<std::string>& files) {

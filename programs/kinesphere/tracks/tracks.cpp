@@ -31,7 +31,6 @@
 #include "tracks/approach_plot.hpp"
 #include "tracks/closeness.hpp"
 #include "tracks/coverage_summary.hpp"
-#include "tracks/error_option.hpp"
 #include "tracks/handovers.hpp"
 #include "tracks/implied_speeds.hpp"
 #include "tracks/minima_table.hpp"
@@ -46,17 +45,18 @@ namespace kinesphere::program {
 namespace {
 
 void add_approaches(Summary& summary, const Closeness& closeness, const std::vector<Approach>& approaches,
-                    const std::string& errors) {
+                    const ErrorOptions& errors) {
   const auto cut = std::count_if(approaches.begin(), approaches.end(),
                                  [](const Approach& approach) { return approach.ends_with_track; });
   summary.row("approaches", grouped(approaches.size()),
               fmt::format("{}, {} of them until a track's end", closeness.text,
                           grouped(static_cast<std::uint64_t>(cut))));
   if (approaches.empty()) return;
-  if (!errors.empty()) {
+  if (errors.any()) {
     const auto certain = std::ranges::count_if(approaches, &Approach::is_certain);
-    summary.row("certain", grouped(static_cast<std::uint64_t>(certain)),
-                fmt::format("of the approaches; the others are possible, with positions off by {}", errors));
+    summary.row(
+        "certain", grouped(static_cast<std::uint64_t>(certain)),
+        fmt::format("of the approaches; the others are possible, with positions off by {}", errors.text()));
   }
   const auto shorter = [](const Approach& a, const Approach& b) { return a.end - a.begin < b.end - b.begin; };
   const auto [shortest, longest] = std::minmax_element(approaches.begin(), approaches.end(), shorter);
@@ -191,7 +191,7 @@ class TracksFiles {
     if (!options.contacts.empty())
       contacts_.emplace(options.contacts,
                         ApproachColumns{.by_cylinder = options.separation.starts_with("cylinder"),
-                                        .has_errors = !options.error.empty()});
+                                        .has_errors = options.errors.any()});
     if (!options.minima.empty()) minima_.emplace(options.minima);
     if (!options.pairs.empty()) pairs_.emplace(options.pairs);
     if (!options.plot.empty()) plot_.emplace(options.plot);
@@ -250,10 +250,23 @@ void add_closeness_options(CLI::App& command, TracksOptions& options) {
       ->group(group);
   command
       .add_option(
-          "--error", options.error,
+          "--error", options.errors.error,
           "How far positions may be off: at samples, and for each second from the nearest sample, such as "
           "10m:2m/s. Approaches are then possible ones, and say which are certain")
       ->type_name("LENGTH[:SPEED]")
+      ->group(group);
+  command
+      .add_option(
+          "--largest-speed", options.errors.largest_speed,
+          "No body is faster, such as 20kt: bounds how far it may be from the straight way between two "
+          "samples. Approaches are then possible ones, as with --error")
+      ->type_name("SPEED")
+      ->group(group);
+  command
+      .add_option(
+          "--acceleration", options.errors.acceleration,
+          "No body accelerates more, such as 0.3g or 2m/s2: bounds it likewise, alone or with the speed")
+      ->type_name("ACCELERATION")
       ->group(group);
   command
       .add_option("--tolerance", options.tolerance,
@@ -263,7 +276,8 @@ void add_closeness_options(CLI::App& command, TracksOptions& options) {
   command
       .add_flag(
           "--sizes", options.reading.hints.sizes,
-          "Distances are between rectangles (in 3D spheres) of the columns length and width, which turn as "
+          "Distances are between rectangles (in 3D upright boxes) of the columns length and width, which "
+          "turn as "
           "their heading or their motion says; --pairs has times to collision, post-encroachment times and "
           "decelerations that avoid a crash")
       ->group(group);
@@ -368,7 +382,7 @@ TracksResult result_of(const EngineRun& run, const TrackSet& track_set, const Tr
 void add_result(Summary& summary, const TracksOptions& options, const Closeness& closeness,
                 const TracksResult& result, const TrackSet& track_set) {
   summary.space();
-  add_approaches(summary, closeness, result.approaches, options.error);
+  add_approaches(summary, closeness, result.approaches, options.errors);
   add_left_out(summary, options.choice, result.left_out);
   add_handovers(summary, track_set, result.of_one_body);
   add_vanishings(summary, result.vanishings, track_set);
@@ -383,17 +397,20 @@ void add_result(Summary& summary, const TracksOptions& options, const Closeness&
 int tracks(const TracksOptions& options) {
   for (const std::string& file : options.files) require_input(file);
   const Closeness closeness = closeness_of(options.distance, options.separation);
+  const Interpolation interpolation = interpolation_for(options.errors, options.reading);
   TracksFiles files(options);
-  const TrackSet track_set = read_tracks(options.files, reading_for(closeness, options.reading));
+  TrackSet track_set = read_tracks(options.files, reading_for(closeness, options.reading));
+  // A cylinder has limits of its own along and across the plane, for discs that cover the bodies.
+  if (closeness.vertical) track_set.has_rectangles = false;
   check_closeness(closeness, track_set);
   files.check(track_set);
   const ApproachFilter filter(options.choice, track_set);
-  const PositionErrors errors = errors_of(options.error, closeness, track_set);
+  const PositionErrors errors = errors_of(options.errors, closeness, track_set);
   const TrackScene scene =
       scene_of(track_set, {.distance = closeness.distance + largest_error(errors, track_set),
                            .vertical = closeness.vertical,
                            .tolerance = options.tolerance,
-                           .interpolation = options.reading.chosen_interpolation(),
+                           .interpolation = interpolation,
                            .from = filter.window().from,
                            .until = filter.window().until});
   for (const std::string& warning : warnings_of(track_set, scene))

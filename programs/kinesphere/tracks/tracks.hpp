@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tracks/approach_choice.hpp"
+#include "tracks/error_option.hpp"
 #include "tracks/reading_policy.hpp"
 
 namespace kinesphere::program {
@@ -16,7 +17,7 @@ struct TracksOptions {
   std::string distance;    ///< a number, and perhaps a unit
   std::string separation;  ///< sphere:LENGTH or cylinder:LENGTH:LENGTH, instead of `distance`
   std::optional<double> tolerance;
-  std::string error;  ///< of positions: LENGTH[:SPEED]; empty for none
+  ErrorOptions errors;
   TrackOptions reading;
   ApproachChoice choice;
   std::string contacts, minima, pairs, plot, summary;  ///< files to write; empty for none

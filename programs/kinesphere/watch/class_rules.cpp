@@ -8,7 +8,7 @@
 
 #include "base/ascii_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/ids/id_list.hpp"
+#include "formats/ids/identities.hpp"
 #include "formats/tables/row_reader.hpp"
 
 namespace kinesphere::program {

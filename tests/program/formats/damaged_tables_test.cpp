@@ -31,16 +31,10 @@ constexpr std::string_view healthy[] = {
     "$GPRMC,235959,A,4700.1,N,00800.0,E,,,311224,,\n$GPGGA,235959,4700.1,N,00800.0,E,1,8,1,5,M,,,,\n"
     "$GPRMC,000000,A,4700.1,N,00800.1,E,,,010125,,\n$GPGGA,000000,4700.1,N,00800.1,E,1,8,1,5,M,,,,\n",
     "AXXX\nHFDTE311224\nB2359594700000N00800000EA0090000950\nB0000004700000N00800100EA0090000950\n",
-    "a t= 0\n1\n    1SOL     OW    1   0.100   0.200   0.300\n 9 9 9 0 0 1 0 1 1\n"
-    "a t= 1\n1\n    1SOL     OW    1   0.200   8.200   0.300\n 9 9 9 0 0 1 0 1 1\n",
-    "TITLE     t= 0\nCRYST1    9.000    9.000    9.000  80.00  90.00 100.00\n"
-    "ATOM      1  OW  SOL A   1       1.000   2.000   3.000\nENDMDL\nTITLE     t= 1\n"
-    "ATOM      1  OW  SOL A   1       8.000   2.000   3.000\nEND\n",
     "# framerate: 25 fps\nframe,lat1,lon1,lat2,lon2\n0,47,8,47,9\n1,47,8.1,47,9\n",
     "Trajectories\n100\n,,a,,,b,,\nFrame,Sub Frame,X,Y,Z,X,Y,Z\n,,mm,mm,mm,mm,mm,mm\n1,0,1,2,3,4,5,6\n"
     "2,0,1,2,3,4,,6\n",
     "NO_OF_FRAMES\t2\nFREQUENCY\t100\nMARKER_NAMES\ta\tb\n1\t2\t3\t4\t5\t6\n1\t2\t3\t0\t0\t0\n",
-    "scorer,s,s,s\nbodyparts,a,a,a\ncoords,x,y,likelihood\n0,1,2,0.9\n1,2,2,0.9\n",
     "<kml><Placemark><name>a</name><gx:Track><altitudeMode>absolute</altitudeMode>\n"
     "<when>2024-01-01T00:00:00Z</when><when>2024-01-01T00:00:10Z</when>\n<gx:coord>8 47 1</gx:coord>"
     "<gx:coord>8.1 47 2</gx:coord></gx:Track></Placemark></kml>",
@@ -58,6 +52,11 @@ constexpr std::string_view healthy[] = {
     "{\"time\": 1, \"id\": \"a\", \"pose\": {\"position\": {\"x\": 3, \"y\": 2}}}]",
     "{\"id\":1,\"time\":0,\"x\":1,\"y\":2}\n{\"id\":1,\"time\":1,\"x\":1,\"y\":[3]}\n{\"id\":1,\"time\":2,"
     "\"x\":1,\"y\":4}\n",
+    R"({"header":{"gtfsRealtimeVersion":"2.0","timestamp":"5"},"entity":[{"id":"a","vehicle":{"position":{"latitude":47,)"
+    R"("longitude":8},"timestamp":"1"}},{"id":"a","vehicle":{"position":{"latitude":47,"longitude":8.1},"timestamp":"2"}}]})",
+    R"({"cat":62,"CAT062":{"I010":{"SAC":1,"SIC":2},"I070":{"ToT":1.5},"I105":{"Lat":47,"Lon":8},"I040":{"TrkN":7}}})"
+    "\n"
+    R"({"cat":62,"CAT062":{"I010":{"SAC":1,"SIC":2},"I070":{"ToT":2.5},"I105":{"Lat":47,"Lon":8.1},"I040":{"TrkN":7}}})",
     R"({"icao":"4ca1fa","timestamp":1600000000.5,"trace":[[10,47.1,8.1,1000,100,90,0,64,{"flight":"A"},"adsb_icao",1],)"
     R"([20,47.2,8.2,2000,100,90,1,64,null]]})"};
 

@@ -24,7 +24,15 @@ TEST(Exports, ThatPandasConvertsAreNamed) {
                   "tracks of TrackMate in XML"),
         std::pair(std::string("# This file was created\n@    xaxis  label \"Time (ps)\"\n"
                               "@ s0 legend \"atom 1 X\"\n@ s1 legend \"atom 1 Y\"\n0.0 1.5 2.5\n"),
-                  "coordinates of GROMACS")}) {
+                  "coordinates of GROMACS"),
+        std::pair(std::string("water t= 0.0\n    1\n    1SOL     OW    1   0.100   0.200   0.300\n 9 9 9\n"),
+                  "frames of atoms (GRO or PDB)"),
+        std::pair(std::string("ATOM      1  OW  SOL A   1       1.000   2.000   3.000\nEND\n"),
+                  "frames of atoms (GRO or PDB)"),
+        std::pair(std::string("scorer,net,net,net\nbodyparts,a,a,a\ncoords,x,y,likelihood\n0,1,2,0.9\n"),
+                  "a table of DeepLabCut"),
+        std::pair(std::string("scorer,net,net\nindividuals,a,a\nbodyparts,b,b\ncoords,x,y\n0,1,2\n"),
+                  "a table of DeepLabCut")}) {
     const std::string error = error_in(text);
     EXPECT_TRUE(error.starts_with("folder/f.csv: ")) << error;
     EXPECT_NE(error.find(is), std::string::npos) << error;

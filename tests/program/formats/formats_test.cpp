@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -313,6 +314,32 @@ TEST(CsvFormat, RefusesWrongMaps) {
     EXPECT_NE(error(columns).find(part), std::string::npos) << error(columns);
   EXPECT_NE(error_of([] { read_all(StreamFormat::csv, "who,t,a,b\nx,1,50,8\n"); }).find("--columns"),
             std::string::npos);
+}
+
+TEST(CsvFormat, KnowsNoColumnsBeyondItsHeader) {
+  // The first line of a stream may be damaged, and longer than its header.
+  const std::string text = "who,when,east,north\na,1,5,6,7,8\n";
+  EXPECT_EQ(error_of([&] {
+              read_all(StreamFormat::csv, text, {.hints = {.columns = "id=1,time=2,x=3,y=6"}, .source = "t"});
+            }),
+            "--columns: expected 'y' to be a column's name or number from 1 to 4, but got '6': t has the "
+            "columns who, when, "
+            "east, north");
+}
+
+TEST(CsvFormat, RemembersTheOrderOfDayAndMonth) {
+  const std::string header = "id,time,x,y\n", later = "a,03/04/2021 12:00:00,1,2\n";
+  CollectedReports before = read_all(StreamFormat::csv, header + "a,20/03/2021 12:00:00,1,2\n" + later);
+  ASSERT_EQ(before.reports.size(), 2u);
+  constexpr double april_3 = 1'617'451'200.0;
+  EXPECT_EQ(seconds(before.reports[1].report.stamp), april_3);
+  // A run that continues behind the first rows.
+  CollectedReports after;
+  const auto next = make_format(StreamFormat::csv, {});
+  next->restore(before.format->save());
+  next->read({.text = std::string_view(later).substr(0, later.size() - 1), .line = 9}, after);
+  ASSERT_EQ(after.reports.size(), 1u);
+  EXPECT_EQ(seconds(after.reports[0].report.stamp), april_3);
 }
 
 TEST(JsonLinesFormat, ReadsTheLibrarysOwnNames) {

@@ -242,9 +242,6 @@ TEST(Readers, AgreeOnRecordings) {
       "z\n7 1 2 3\nITEM: TIMESTEP\n1\nITEM: TIME\n1.0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff "
       "ff\n0 9\n0 9\n0 9\nITEM: ATOMS "
       "id x y z\n7 1 2 4\n",
-      "w t= 0.0\n    1\n    1SOL     OW    1   0.100   0.200   0.300\n 9 9 9\nw t= 1.0\n    1\n    1SOL     "
-      "OW    1   0.100   0.200   0.400\n 9 9 "
-      "9\n",
       "$VEHICLE:NO;SIMSEC;COORDFRONT\n1;0;1 2 3\n2;0;4 5 6\n1;1;1 2 4\n2;1;4 5 7\n",
       "track_id; type; traveled_d; avg_speed; lat; lon; speed; lon_acc; lat_acc; time\n1; Car; 1; 1; 37.9; "
       "23.7; 1; 0; 0; 0; 37.91; "
@@ -254,6 +251,8 @@ TEST(Readers, AgreeOnRecordings) {
       "0\n",
       R"([{"id":"b","time":1,"x":5,"y":6},{"id":"a","time":0,"x":1,"y":2},{"id":"a","time":1,"x":1,"y":3},{"id":"b","time":2,"x":5,"y":7}])",
       R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"id":"a","times":[0,10]},"geometry":{"type":"LineString","coordinates":[[8,47],[8,47.1]]}}]})",
+      R"({"header":{"gtfsRealtimeVersion":"2.0"},"entity":[{"id":"a","vehicle":{"position":{"latitude":47,"longitude":8},"timestamp":"1"}},{"id":"a","vehicle":{"position":{"latitude":47,"longitude":8.1},"timestamp":"2"}}]})",
+      R"([{"category":62,"I010":{"SAC":{"val":1}},"I070":{"ToT":{"val":1.5}},"I105":{"Lat":{"val":47},"Lon":{"val":8}},"I040":{"TrkN":{"val":7}}},{"category":62,"I010":{"SAC":{"val":1}},"I070":{"ToT":{"val":2.5}},"I105":{"Lat":{"val":47},"Lon":{"val":8.1}},"I040":{"TrkN":{"val":7}}}])",
       "Trajectories\n100\n,,s:A,,,s:B,,\nFrame,Sub "
       "Frame,X,Y,Z,X,Y,Z\n,,mm,mm,mm,mm,mm,mm\n1,0,1,2,3,4,5,6\n2,0,1,2,4,4,5,7\n"};
   for (const std::string& text : recordings) {

@@ -1,4 +1,4 @@
-// Which body a number is of: tables of DeepLabCut, columns for each body, ids of several files, and numbers
+// Which body a number is of: columns for each body, ids of several files, and numbers
 // that are of none.
 #include <fmt/format.h>
 
@@ -24,56 +24,14 @@ TrackOptions with(const std::string& where, double frame_rate = 0.0) {
   return options;
 }
 
-TEST(SeveralBodies, OfDeepLabCutAreReadAsTheyWereWritten) {
-  constexpr std::uint64_t seed = 77;
-  Random random(seed);
-  for (const bool has_individuals : {false, true}) {
-    std::string text = "scorer,net,net,net,net,net,net\n";
-    if (has_individuals) text += "individuals,a,a,a,b,b,b\n";
-    text += has_individuals ? "bodyparts,nose,nose,nose,nose,nose,nose\n"
-                            : "bodyparts,nose,nose,nose,tail,tail,tail\n";
-    text += "coords,x,y,likelihood,x,y,likelihood\n";
-    std::vector<std::array<double, 4>> rows;
-    for (int k = 0; k < 50; ++k) {
-      auto& row = rows.emplace_back();
-      for (double& number : row) number = random.uniform(0, 500);
-      text += fmt::format("{},{},{},0.99,{},{},0.75\n", k, row[0], row[1], row[2], row[3]);
-    }
-    const TrackSet two = parse(text, with("", 25.0));
-    EXPECT_EQ(two.format, "DeepLabCut");
-    ASSERT_EQ(two.tracks.size(), 2u);
-    EXPECT_EQ(two.tracks[0].id, has_individuals ? "a nose" : "nose");
-    EXPECT_EQ(two.tracks[1].id, has_individuals ? "b nose" : "tail");
-    for (std::size_t body = 0; body < 2; ++body) {
-      ASSERT_EQ(two.tracks[body].samples.size(), rows.size());
-      for (std::size_t k = 0; k < rows.size(); ++k) {
-        EXPECT_DOUBLE_EQ(two.tracks[body].samples[k].time, static_cast<double>(k) / 25.0);
-        EXPECT_EQ(two.coordinates.as_in_file(two.tracks[body].samples[k].position),
-                  (Vec3{rows[k][2 * body], rows[k][2 * body + 1], 0}));
-      }
-    }
-  }
-}
-
-TEST(SeveralBodies, OfDeepLabCutNameLineAndColumn) {
-  const std::string head =
-      "scorer,net,net,net,net,net,net\nbodyparts,nose,nose,nose,tail,tail,tail\n"
-      "coords,x,y,likelihood,x,y,likelihood\n0,1,2,0.9,3,4,0.9\n1,1,2,0.9,3,4,0.9\n";
-  EXPECT_EQ(error_in(head), "f.csv: expected --frame-rate, because column 'frame' counts frames");
-  EXPECT_EQ(error_in(head + "2,1,2,0.9,left,4,0.9\n", with("", 25)),
-            "f.csv:6: expected a number as x of tail (column 5), but got 'left'");
-  EXPECT_EQ(error_in(head + "2,1,2,0.9\n", with("", 25)), "f.csv:6: expected 7 columns, but got 4");
-  EXPECT_EQ(error_in(head + "2,1,2,0.9,,4,0.9\n", with("", 25)),
-            "f.csv:6: expected a number as x ('x'), but got nothing (see --missing)");
+TEST(SeveralBodies, UnlikelyPlacesAreAskedAbout) {
+  const std::string table = "frame,id,x,y,likelihood\n0,nose,1,2,0.9\n1,nose,1,2,0.9\n2,nose,3,4,0.02\n";
   EXPECT_EQ(
-      error_in(head + "2,1,2,0.9,3,4,0.02\n", with("", 25)),
-      "f.csv:6: the likelihood 0.02 says that the position may be anywhere: leave such rows out with --where "
+      error_in(table, with("", 25)),
+      "f.csv:4: the likelihood 0.02 says that the position may be anywhere: leave such rows out with --where "
       "'likelihood >= 0.6', or keep them with --where 'likelihood != none'");
-  EXPECT_EQ(parse(head + "2,1,2,0.9,3,4,0.02\n", with("likelihood >= 0.6", 25)).samples, 5u);
-  EXPECT_EQ(parse(head + "2,1,2,0.9,3,4,0.02\n", with("likelihood != none", 25)).samples, 6u);
-  EXPECT_EQ(
-      error_in("scorer,net\nbodyparts,a\n0,1\n"),
-      "f.csv:3: expected rows scorer, bodyparts and coords above the numbers, as DeepLabCut writes them");
+  EXPECT_EQ(parse(table, with("likelihood >= 0.6", 25)).samples, 2u);
+  EXPECT_EQ(parse(table, with("likelihood != none", 25)).samples, 3u);
 }
 
 /// Two markers of motion capture, at places in millimetres.

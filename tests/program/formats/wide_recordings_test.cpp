@@ -1,4 +1,4 @@
-// Recordings of traffic and molecules: Vissim, pNEUMA, coordinates of GROMACS; and what only looks like one.
+// Recordings of traffic: Vissim, pNEUMA; and what only looks like one.
 #include <fmt/format.h>
 
 #include "kinesphere/random.hpp"
@@ -58,18 +58,19 @@ TEST(WideRecordings, OfVissim) {
                                      body + 1, at.x, at.y, at.z);
       }
     const TrackSet track_set = parse(text);
-    EXPECT_EQ(track_set.format, "Vissim (COORDFRONT)");
+    EXPECT_EQ(track_set.format, "Vissim");
     expect_places(track_set, places, 0.5, [](std::size_t body) { return fmt::format("{}", body + 1); });
   }
-  EXPECT_EQ(parse("$PEDESTRIAN:NO;SIMSEC;COORDCENTX;COORDCENTY\n1;0;1;2\n1;1;1;3\n").format,
-            "Vissim (COORDCENT)");
+  EXPECT_EQ(parse("$PEDESTRIAN:NO;SIMSEC;COORDCENTX;COORDCENTY\n1;0;1;2\n1;1;1;3\n").samples, 2u);
   EXPECT_TRUE(error_in(vissim_begin +
                        "$VEHICLE:SIMSEC;NO;LANE\\LINK\\NO;LANE\\INDEX;POS;POSLAT\n0.2;1;1;1;2.57;0.5\n")
-                  .starts_with("f:8: expected the attributes NO, SIMSEC and COORDFRONTX, COORDFRONTY"));
+                  .starts_with("f: expected columns for id, time, x and y"));
   EXPECT_EQ(error_in("$VEHICLE:SIMSEC;NO;COORDFRONTX;COORDFRONTY\n0;1;1;2\n1;1;x;2\n"),
-            "f:3: expected a number as x ('x'), but got 'x'");
+            "f:3: expected a number as x ('COORDFRONTX'), but got 'x'");
   EXPECT_EQ(error_in("$VEHICLE:SIMSEC;NO;COORDFRONTX;COORDFRONTY\n0;1;1;2\n1;1;1\n"),
-            "f:3: expected 4 fields, but got 3");
+            "f:3: expected 4 fields as behind $VEHICLE: or $PEDESTRIAN:, but got 3");
+  EXPECT_EQ(error_in("$VISION\n1;2;3\n"),
+            "f:2: expected 0 fields as behind $VEHICLE: or $PEDESTRIAN:, but got 3");
 }
 
 TEST(WideRecordings, OfPneuma) {

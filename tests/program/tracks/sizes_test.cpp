@@ -1,17 +1,23 @@
 // Bodies with a size (--sizes): distances between surfaces, times to collision, questions.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "kinesphere/random.hpp"
 #include "program/support.hpp"
+#include "simulation/tracks/rectangles.hpp"
 
 namespace kinesphere::program::sizes_test {
 namespace {
 
-class SizesOf : public ProgramTest {};
+class SizesOf : public ProgramTest {
+ protected:
+  nlohmann::json pair_;  ///< the last row of --pairs
+};
 
 /// A car brakes behind a standing one: 20 m at 10 m/s, then 5 m/s. Its diagonal is 5, that of the other 10.
 constexpr std::string_view braking =
@@ -51,13 +57,114 @@ TEST_F(SizesOf, NeverOnACourseOfCollisionIsEmpty) {
 }
 
 /// Spheres with heights: a rectangle does not say how high it is.
-TEST_F(SizesOf, WithHeightsAreSpheres) {
-  const std::string file = write("t.csv",
-                                 "id,time,x_m,y_m,z_m,length_m,width_m\na,0,0,0,0,4,3\na,2,20,0,0,4,3\n"
-                                 "b,0,0,20,0,4,3\nb,2,20,20,0,4,3\n");
-  ASSERT_EQ(run("tracks " + file + " --sizes --distance 100 --pairs " + path("p.csv")).exit_code, 0);
-  const std::string rows = read_text(path("p.csv"));
-  EXPECT_NE(rows.find("\na,b,1,2,15,0,,,,\n"), std::string::npos) << rows;
+/// Two bodies of 4 m by 3 m that go along x, beside and above each other.
+TEST_F(SizesOf, WithHeightsAreUprightBoxes) {
+  const auto least_distance = [&](double beside, double above, double height) {
+    std::string rows = "id,time,x_m,y_m,z_m,length_m,width_m,body_height_m\n";
+    for (int k = 0; k < 3; ++k)
+      rows +=
+          fmt::format("a,{0},{1},0,0,4,3,{3}\nb,{0},{1},{2},{4},4,3,{3}\n", k, 10 * k, beside, height, above);
+    const ProgramRun result =
+        run("tracks " + write("t.csv", rows) + " --sizes --distance 100 --pairs " + path("p.jsonl"));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    pair_ = nlohmann::json::parse(read_text(path("p.jsonl")));
+    return pair_["least_distance_m"].get<double>();
+  };
+  EXPECT_NEAR(least_distance(20.0, 0.0, 1.5), 17.0, 1e-9) << "a sphere around each would leave 15";
+  EXPECT_NEAR(least_distance(0.5, 6.0, 1.5), 4.5, 1e-9) << "on a bridge";
+  EXPECT_NEAR(least_distance(0.5, 6.0, 0.0), 6.0, 1e-9) << "of unknown heights";
+  EXPECT_NEAR(least_distance(6.0, 5.5, 1.5), 5.0, 1e-9) << "3 m beside and 4 m above";
+  EXPECT_NEAR(least_distance(2.0, 0.75, 1.5), -0.75, 1e-9)
+      << "0.75 m upwards parts the two, 1 m to the side too";
+  EXPECT_EQ(pair_["least_time_to_collision_s"], 0.0);
+  // Towers whose middles are far apart.
+  const std::string towers = write("h.csv",
+                                   "id,time,x_m,y_m,z_m,length_m,width_m,body_height_m\na,0,0,0,0,1,1,20\n"
+                                   "a,1,0,0,0,1,1,20\nb,0,0,0,25,1,1,20\nb,1,0,0,25,1,1,20\n");
+  ASSERT_EQ(run("tracks " + towers + " --sizes --distance 6 --pairs " + path("p.jsonl")).exit_code, 0);
+  EXPECT_NEAR(nlohmann::json::parse(read_text(path("p.jsonl")))["least_distance_m"].get<double>(), 5.0, 1e-9);
+}
+
+TEST_F(SizesOf, HeightsApartAreNoCourseOfCollision) {
+  const auto seconds_left = [&](double above, const char* height) {
+    std::string rows =
+        fmt::format("id,time,x_m,y_m,z_m,length_m,width_m{}\n", *height == '\0' ? "" : ",body_height_m");
+    for (int k = 0; k < 3; ++k)
+      rows += fmt::format("a,{0},{1},0,0,4,2{3}\nb,{0},50,0,{2},4,2{3}\n", k, 10 * k, above, height);
+    EXPECT_EQ(run("tracks " + write("t.csv", rows) + " --sizes --heading motion --distance 100 --pairs " +
+                  path("p.jsonl"))
+                  .exit_code,
+              0);
+    return nlohmann::json::parse(read_text(path("p.jsonl")))["least_time_to_collision_s"];
+  };
+  // b stands, and is a disc of its half diagonal: 50 m - 20 m - 2 m - sqrt(5) m at 10 m/s.
+  EXPECT_NEAR(seconds_left(0.5, ",1.5").get<double>(), (28.0 - std::sqrt(5.0)) / 10.0, 1e-6);
+  EXPECT_TRUE(seconds_left(2.0, ",1.5").is_null()) << "it passes below";
+  EXPECT_NEAR(seconds_left(0.5, "").get<double>(), (28.0 - std::sqrt(5.0)) / 10.0, 1e-6)
+      << "without heights of the bodies they are seen from above";
+}
+
+/// Points of two convex bodies that are projected upon the other in turn come to the nearest ones.
+TEST(UprightBoxes, AreAsFarApartAsTheirNearestPoints) {
+  Random random(19);
+  const auto drawn = [&] { return random.uniform(0.2, 3.0); };
+  int apart = 0, above = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const RectangleBody first{.length = drawn(), .width = drawn(), .height = drawn()},
+        second{.length = drawn(), .width = drawn(), .height = drawn()};
+    const auto place = [&] { return Vec3{random.uniform(0, 4), random.uniform(0, 4), random.uniform(0, 4)}; };
+    const RectanglePose at{place(), {}, random.uniform(0, 6)}, other{place(), {}, random.uniform(0, 6)};
+    const auto nearest_in = [](const RectangleBody& body, const RectanglePose& pose, const Vec3& point) {
+      const Vec3 along{std::cos(pose.heading), std::sin(pose.heading), 0}, across{-along.y, along.x, 0};
+      const Vec3 way = point - pose.position;
+      return pose.position + std::clamp(dot(way, along), -0.5 * body.length, 0.5 * body.length) * along +
+             std::clamp(dot(way, across), -0.5 * body.width, 0.5 * body.width) * across +
+             Vec3{0, 0, std::clamp(way.z, -0.5 * body.height, 0.5 * body.height)};
+    };
+    Vec3 one = at.position, two = other.position;
+    for (int step = 0; step < 4000; ++step) {
+      two = nearest_in(second, other, one);
+      one = nearest_in(first, at, two);
+    }
+    const double gap = gap_between(first, at, second, other), distance = norm(two - one);
+    // They come slowly to where the two nearly touch.
+    ASSERT_GE(distance, gap - 1e-9) << "round " << round;
+    ASSERT_LE(distance, std::max(gap, 0.0) + 0.02) << "round " << round;
+    ASSERT_NEAR(gap, gap_between(second, other, first, at), 1e-12);
+    apart += gap > 0.0 ? 1 : 0;
+    above += std::abs(at.position.z - other.position.z) > 0.5 * (first.height + second.height) ? 1 : 0;
+  }
+  EXPECT_GT(apart, 500);
+  EXPECT_GT(above, 300);
+  EXPECT_LT(apart, 2900);
+}
+
+/// SUMO writes sizes as attributes of vehicles, or has them in the types.
+TEST_F(SizesOf, OfFcdInXmlAreThoseOfItsVehiclesOrTypes) {
+#ifndef KINESPHERE_WITH_EXPAT
+  GTEST_SKIP() << "built without expat";
+#endif
+  const auto least_distance = [&](const std::string& begin, const std::string& attributes) {
+    std::string text = "<fcd-export>\n" + begin;
+    for (int k = 0; k < 3; ++k)
+      text += fmt::format(
+          "<timestep time=\"{0}\"><vehicle id=\"a\" x=\"{1}\" y=\"0\" angle=\"90\" type=\"car\" "
+          "speed=\"10\"{2}/>"
+          "<vehicle id=\"b\" x=\"{3}\" y=\"0\" angle=\"90\" type=\"car\" speed=\"10\"{2}/></timestep>\n",
+          k, 10 * k, attributes, 10 * k + 30);
+    const ProgramRun result = run("tracks " + write("f.xml", text + "</fcd-export>\n") +
+                                  " --sizes --unit m --distance 100 --pairs " + path("p.jsonl"));
+    if (result.exit_code != 0) return result.err;
+    return read_text(path("p.jsonl"));
+  };
+  const std::string behind = "\"least_distance_m\": 25,";
+  const auto says = [](const std::string& text, std::string_view part) {
+    return text.find(part) != text.npos ? std::string("yes") : text;
+  };
+  EXPECT_EQ(says(least_distance("", " length=\"5\" width=\"1.8\""), behind), "yes")
+      << "from its tail to the next front";
+  EXPECT_EQ(says(least_distance("<vType id=\"car\" length=\"5\" width=\"1.8\"/>\n", ""), behind), "yes");
+  EXPECT_EQ(says(least_distance("", ""), "expected columns of length and width for --sizes"), "yes");
 }
 
 TEST_F(SizesOf, PostEncroachmentTimeIsThatOfTheRectangles) {

@@ -806,8 +806,8 @@ TEST_F(TablesOfTheField, OtherFilesAreNamed) {
            {"ISS\n1 25544U 98067A   24001.50000000  .00016717  00000-0  10270-3 0  9009\n"
             "2 25544  51.6400 208.9163 0006703 130.5360 325.0288 15.72125391 10008\n",
             "TLE"},
-           {std::string("\0\0\x07\xCB\0\0", 6), "(XTC, TRR or DCD): write it as GRO"},
-           {std::string("T\0\0\0CORD", 8), "gmx trjconv"},
+           {std::string("\0\0\x07\xCB\0\0", 6), "(XTC, TRR or DCD): write it as XYZ"},
+           {std::string("T\0\0\0CORD", 8), "with MDAnalysis"},
            {std::string("\x02P\1\0", 4), "C3D"},
            {"MATLAB 5.0 MAT-file", ".mat file"},
            {std::string("\xFF\xFE\0\0i\0\0\0", 8), "iconv -f UTF-32"},
@@ -855,7 +855,7 @@ const Shape shapes[] = {
      "position.y,"
      "field.pose.position.z\n",
      "{1}000000000,{1},{1}000000000,map,{2},{3},0\n", "", 2},
-    {"Vissim (COORDFRONT)", "$VEHICLE:SIMSEC;NO;COORDFRONTX;COORDFRONTY\n", "{1};{0};{2};{3}\n"},
+    {"Vissim", "$VEHICLE:SIMSEC;NO;COORDFRONTX;COORDFRONTY\n", "{1};{0};{2};{3}\n"},
     {"Danish AIS", "# Timestamp,Type of mobile,MMSI,Latitude,Longitude,Navigational status,ROT,SOG,COG\n",
      "03/09/2025 00:00:0{1},Class A,11100000{0},{5},{4},Under way,0,1,90\n"},
     {"AIS of marinecadastre.gov", "MMSI,BaseDateTime,LAT,LON,SOG,COG\n",

@@ -137,7 +137,7 @@ TEST(TrackFile, NamesWhatItDoesNotRecognise) {
       "where each "
       "file is one body");
   EXPECT_NE(error_in("1 2 3\n").find("it has no header and 3 columns"), std::string::npos);
-  EXPECT_EQ(error_in("id,mmsi,t,x,y\n0,0,1,2,3\n"),
+  EXPECT_EQ(error_in("id,mmsi,t,x,y\n1,2,1,2,3\n"),
             "t.txt: columns 'id' and 'mmsi' may both be meant: say which, as in --columns "
             "id=mmsi,time=t,x=x,y=y");
   EXPECT_EQ(error_in("id,t,x,y,lon,lat\n0,0,1,2,3,4\n"),
@@ -232,8 +232,8 @@ TEST(TrackFile, ReadsDates) {
             "t.txt:2");
   EXPECT_EQ(error_in("id,t,x,y\na,2024-02-28T00:00:00Z,0,0\na,17,0,0\n"),
             "t.txt:3: expected a date with a zone as time (column 2), but got '17', unlike t.txt:2");
-  EXPECT_EQ(error_in("id,t,x,y\na,28/02/2024 00:00,0,0\n"),
-            "t.txt:2: expected a date whose order of day and month is known (column 2), but got '28/02/2024 "
+  EXPECT_EQ(error_in("id,t,x,y\na,08/02/2024 00:00,0,0\n"),
+            "t.txt:2: expected a date whose order of day and month is known (column 2), but got '08/02/2024 "
             "00:00': "
             "say --dates day-first or --dates month-first");
 }

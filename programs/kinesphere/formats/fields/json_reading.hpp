@@ -89,4 +89,10 @@ inline std::optional<std::string_view> text_in(ondemand::value value, const char
   return std::nullopt;
 }
 
+/// Returns a text, valid as long as the document; nothing for any other value.
+inline std::optional<std::string_view> text_if_any(ondemand::value value) {
+  const char* ignored = nullptr;
+  return text_in(value, "", ignored);
+}
+
 }  // namespace kinesphere::program

@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <charconv>
 
-#include "base/ascii_text.hpp"
-
 namespace kinesphere::program {
 
 std::optional<std::string_view> LineCutter::next() {
   if (rest_.empty()) return std::nullopt;
-  const std::size_t end = rest_.find('\n');
-  has_end_ = end != std::string_view::npos;
-  whole_ = rest_.substr(0, end);
-  rest_.remove_prefix(std::min(whole_.size() + 1, rest_.size()));
+  const std::size_t all = rest_.size();
+  whole_ = take_part(rest_, '\n');
+  has_end_ = whole_.size() < all;
   ++line_;
   return trimmed(whole_);
 }

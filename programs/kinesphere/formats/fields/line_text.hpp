@@ -1,10 +1,13 @@
 // Lines of a text, and the words and fields of a line.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
+
+#include "base/ascii_text.hpp"
 
 namespace kinesphere::program {
 
@@ -28,6 +31,18 @@ class LineCutter {
   bool has_end_ = true;
 };
 
+/// Returns the part before the next separator, and cuts both off the front of a text.
+inline std::string_view take_part(std::string_view& rest, char separator) {
+  const std::string_view part = rest.substr(0, rest.find(separator));
+  rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+  return part;
+}
+/// True if a word, in any case, is one of those in a list, between blanks.
+inline bool is_word_of(std::string_view word, std::string_view words) {
+  while (!words.empty())
+    if (same_name(take_part(words, ' '), word)) return true;
+  return false;
+}
 /// Returns the parts between blanks.
 std::vector<std::string_view> words_of(std::string_view line);
 /// Returns the parts between separators, without blanks around them; between blanks as words_of(), but at

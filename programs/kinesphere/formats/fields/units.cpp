@@ -10,6 +10,7 @@
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
+#include "formats/fields/line_text.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -75,13 +76,8 @@ std::span<const NamedUnit> units_of(Measure measure) {
 }
 
 const NamedUnit* known_unit(std::string_view name, Measure measure) {
-  for (const NamedUnit& unit : units_of(measure)) {
-    for (std::string_view rest = unit.names; !rest.empty();) {
-      const std::string_view each = rest.substr(0, rest.find(' '));
-      if (same_name(each, name)) return &unit;
-      rest.remove_prefix(std::min(each.size() + 1, rest.size()));
-    }
-  }
+  for (const NamedUnit& unit : units_of(measure))
+    if (is_word_of(name, unit.names)) return &unit;
   return nullptr;
 }
 

@@ -2,14 +2,46 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 #include <utility>
 
+#include "base/ascii_text.hpp"
+#include "base/input_file.hpp"
 #include "base/program_error.hpp"
-#include "formats/ids/id_list.hpp"
+#include "formats/fields/line_text.hpp"
 
 namespace kinesphere::program {
+std::string in_lower_case(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(), lower_case);
+  return lower;
+}
+
+std::string_view without_quotes(std::string_view text) {
+  text = trimmed(text);
+  const bool is_quoted = text.size() > 1 && text.front() == '"' && text.back() == '"';
+  return is_quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+std::string_view first_of_line(std::string_view line) {
+  return without_quotes(line.substr(0, line.find_first_of(",;\t")));
+}
+
+std::vector<ListedLine> lines_of_list(const std::string& path, std::string_view option) {
+  const std::string content = read_input(path);
+  std::string_view rest = content;
+  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
+  std::vector<ListedLine> lines;
+  LineCutter cutter(rest);
+  while (const auto text = cutter.next())
+    if (!text->empty() && !text->starts_with('#'))
+      lines.push_back({std::string(*text), fmt::format("{}:{}", path, cutter.line())});
+  if (lines.empty()) throw ProgramError(fmt::format("{}: expected ids in {}, but it has none", option, path));
+  return lines;
+}
+
 namespace {
 
 /// Calls f with each text and where it stands: those of the command line, and the lines of files.

@@ -11,10 +11,80 @@
 namespace kinesphere::program {
 namespace {
 
-/// First bits of the fields of a position, which follow each other: longitude (28 bits), latitude (27).
+constexpr std::size_t bits_of_character = 6;
+
+constexpr bool is_six_bit(char c) { return ('0' <= c && c <= 'W') || ('`' <= c && c <= 'w'); }
+
+/// Precondition: is_six_bit(c).
+constexpr unsigned six_bits(char c) {
+  const auto value = static_cast<unsigned>(c - '0');
+  return value < 40 ? value : value - 8;
+}
+
+}  // namespace
+
+bool is_six_bit_text(std::string_view characters) { return std::ranges::all_of(characters, is_six_bit); }
+
+void AisBits::append(std::string_view characters, std::size_t fill_bits) {
+  const std::size_t count = bits_of_character * characters.size();
+  for (std::size_t k = 0; k + fill_bits < count; ++k) {
+    const unsigned six = six_bits(characters[k / bits_of_character]);
+    bits_.push_back((six >> (bits_of_character - 1 - k % bits_of_character) & 1U) != 0);
+  }
+}
+
+std::string AisBits::digits() const {
+  std::string text;
+  for (const bool bit : bits_) text += bit ? '1' : '0';
+  return text;
+}
+
+AisBits AisBits::of_digits(std::string_view digits) {
+  AisBits bits;
+  for (const char digit : digits) bits.bits_.push_back(digit == '1');
+  return bits;
+}
+
+std::uint32_t AisBits::number(std::size_t begin, std::size_t count) const {
+  std::uint32_t value = 0;
+  for (std::size_t k = begin; k < begin + count; ++k) value = value << 1U | (flag(k) ? 1U : 0U);
+  return value;
+}
+
+std::int32_t AisBits::signed_number(std::size_t begin, std::size_t count) const {
+  const auto value = static_cast<std::int32_t>(number(begin, count));
+  return flag(begin) ? value - (std::int32_t{1} << count) : value;
+}
+
+namespace {
+
+/// First bits of the fields of a position; longitude (28 bits) and latitude (27) follow each other.
 struct PositionPlaces {
+  AisStation station;
   std::size_t accuracy, longitude, second;
+  std::size_t speed = 0, course = 0;  ///< 0: the message has none
+  double speed_step = 0.1;            ///< knots
 };
+constexpr PositionPlaces class_a{AisStation::class_a, 60, 61, 137, 50, 116};
+constexpr PositionPlaces search_aircraft{AisStation::search_aircraft, 60, 61, 128, 50, 116, 1.0};
+constexpr PositionPlaces class_b{AisStation::class_b, 56, 57, 133, 46, 112};
+constexpr PositionPlaces aid_to_navigation{AisStation::aid_to_navigation, 163, 164, 253};
+
+/// What a type of messages has, and where; 0 or null: it has none.
+struct MessageForm {
+  int type;
+  std::size_t least_bits;
+  const PositionPlaces* position;
+  std::size_t name = 0, dimensions = 0, ship_type = 0;
+};
+constexpr MessageForm message_forms[] = {{1, 149, &class_a},
+                                         {2, 149, &class_a},
+                                         {3, 149, &class_a},
+                                         {5, 270, nullptr, 112, 240, 232},
+                                         {9, 148, &search_aircraft},
+                                         {18, 148, &class_b},
+                                         {19, 306, &class_b, 143, 271, 263},
+                                         {21, 270, &aid_to_navigation, 43, 219}};
 
 /// Units of coordinates to a degree: 1/10,000 minute, and 1/10 minute in message 27.
 constexpr double fine_units = 600'000.0, coarse_units = 600.0;
@@ -32,7 +102,13 @@ void require_bits(const AisBits& bits, std::size_t least, int type) {
         fmt::format("expected {} bits or more of message {}, but got {}", least, type, bits.size()));
 }
 
-void read_place(const AisBits& bits, const PositionPlaces& at, AisPosition& position) {
+std::optional<int> status_of(std::uint32_t value) {
+  if (value == 15) return std::nullopt;
+  return static_cast<int>(value);
+}
+
+AisPosition position_at(const AisBits& bits, const PositionPlaces& at) {
+  AisPosition position{.station = at.station};
   position.is_accurate = bits.flag(at.accuracy);
   position.longitude = angle(bits.signed_number(at.longitude, 28), fine_units, 180.0);
   position.latitude = angle(bits.signed_number(at.longitude + 28, 27), fine_units, 90.0);
@@ -41,49 +117,13 @@ void read_place(const AisBits& bits, const PositionPlaces& at, AisPosition& posi
   if (second == 61) position.origin = AisPosition::Origin::manual;
   if (second == 62) position.origin = AisPosition::Origin::dead_reckoning;
   if (second == 63) position.origin = AisPosition::Origin::inoperative;
-}
-
-/// Reads the speed (10 bits, steps of `step` knots: 1023 is "not available", 1022 "or higher") and the course
-/// (12 bits, steps of 0.1 degrees: 3600 is "not available").
-void read_motion(const AisBits& bits, std::size_t speed_at, std::size_t course_at, double step,
-                 AisPosition& position) {
-  const std::uint32_t speed = bits.number(speed_at, 10), course = bits.number(course_at, 12);
-  if (speed < 1022) position.speed = speed * step;
+  if (at.station == AisStation::class_a) position.status = status_of(bits.number(38, 4));
+  if (at.station == AisStation::aid_to_navigation) position.is_off_position = bits.flag(259);
+  if (at.speed == 0) return position;
+  // 1023 is "not available", 1022 "or higher"; the course has steps of 0.1 degrees, 3600 is "not available".
+  const std::uint32_t speed = bits.number(at.speed, 10), course = bits.number(at.course, 12);
+  if (speed < 1022) position.speed = speed * at.speed_step;
   if (course < 3600) position.course = course / 10.0;
-}
-
-std::optional<int> status_of(std::uint32_t value) {
-  if (value == 15) return std::nullopt;
-  return static_cast<int>(value);
-}
-
-AisPosition class_a_position(const AisBits& bits) {
-  AisPosition position{.station = AisStation::class_a};
-  position.status = status_of(bits.number(38, 4));
-  read_place(bits, {.accuracy = 60, .longitude = 61, .second = 137}, position);
-  read_motion(bits, 50, 116, 0.1, position);
-  return position;
-}
-
-AisPosition search_aircraft_position(const AisBits& bits) {
-  AisPosition position{.station = AisStation::search_aircraft};
-  read_place(bits, {.accuracy = 60, .longitude = 61, .second = 128}, position);
-  read_motion(bits, 50, 116, 1.0, position);
-  return position;
-}
-
-/// Messages 18 and 19 have these fields at the same places.
-AisPosition class_b_position(const AisBits& bits) {
-  AisPosition position{.station = AisStation::class_b};
-  read_place(bits, {.accuracy = 56, .longitude = 57, .second = 133}, position);
-  read_motion(bits, 46, 112, 0.1, position);
-  return position;
-}
-
-AisPosition aid_position(const AisBits& bits) {
-  AisPosition position{.station = AisStation::aid_to_navigation};
-  read_place(bits, {.accuracy = 163, .longitude = 164, .second = 253}, position);
-  position.is_off_position = bits.flag(259);
   return position;
 }
 
@@ -150,50 +190,23 @@ void read_static_data(const AisBits& bits, AisMessage& message) {
 
 /// Reads what a type of messages has behind its head; returns false for a type that is not read.
 bool read_body(const AisBits& bits, AisMessage& message) {
-  switch (message.type) {
-    case 1:
-    case 2:
-    case 3:
-      require_bits(bits, 149, message.type);
-      message.position = class_a_position(bits);
-      return true;
-    case 5:
-      require_bits(bits, 270, message.type);
-      message.name = name_at(bits, 112);
-      message.dimensions = dimensions_at(bits, 240);
-      message.ship_type = static_cast<int>(bits.number(232, 8));
-      return true;
-    case 9:
-      require_bits(bits, 148, message.type);
-      message.position = search_aircraft_position(bits);
-      return true;
-    case 18:
-      require_bits(bits, 148, message.type);
-      message.position = class_b_position(bits);
-      return true;
-    case 19:
-      require_bits(bits, 306, message.type);
-      message.position = class_b_position(bits);
-      message.name = name_at(bits, 143);
-      message.dimensions = dimensions_at(bits, 271);
-      message.ship_type = static_cast<int>(bits.number(263, 8));
-      return true;
-    case 21:
-      require_bits(bits, 270, message.type);
-      message.position = aid_position(bits);
-      message.name = name_at(bits, 43);
-      message.dimensions = dimensions_at(bits, 219);
-      return true;
-    case 24:
-      read_static_data(bits, message);
-      return true;
-    case 27:
-      require_bits(bits, 95, message.type);
-      message.position = long_range_position(bits);
-      return true;
-    default:
-      return false;
+  if (message.type == 24) {
+    read_static_data(bits, message);
+    return true;
   }
+  if (message.type == 27) {
+    require_bits(bits, 95, message.type);
+    message.position = long_range_position(bits);
+    return true;
+  }
+  const auto* const form = std::ranges::find(message_forms, message.type, &MessageForm::type);
+  if (form == std::end(message_forms)) return false;
+  require_bits(bits, form->least_bits, message.type);
+  if (form->position != nullptr) message.position = position_at(bits, *form->position);
+  if (form->name > 0) message.name = name_at(bits, form->name);
+  if (form->dimensions > 0) message.dimensions = dimensions_at(bits, form->dimensions);
+  if (form->ship_type > 0) message.ship_type = static_cast<int>(bits.number(form->ship_type, 8));
+  return true;
 }
 
 }  // namespace

@@ -4,12 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "base/ascii_text.hpp"
+#include "base/number_text.hpp"
+#include "formats/fields/clock_days.hpp"
+#include "formats/fields/line_text.hpp"
 #include "formats/fields/wrong_input.hpp"
-#include "formats/nmea/ais_bits.hpp"
+#include "formats/nmea/ais_message.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -64,19 +68,12 @@ std::string_view without_marks(std::string_view text) {
 }
 
 AisSentence sentence_of(std::string_view content) {
-  std::string_view fields[7];
-  std::size_t count = 0;
-  for (std::string_view rest = content; count < std::size(fields); ++count) {
-    fields[count] = rest.substr(0, rest.find(','));
-    if (fields[count].size() == rest.size()) {
-      ++count;
-      break;
-    }
-    rest.remove_prefix(fields[count].size() + 1);
-  }
-  if (count != std::size(fields) || std::ranges::count(content, ',') != 6)
-    throw MalformedRecord(fmt::format("expected 7 fields of a sentence of AIS, but got {}",
-                                      std::ranges::count(content, ',') + 1));
+  std::array<std::string_view, 7> fields;
+  const auto count = std::ranges::count(content, ',') + 1;
+  if (count != std::ssize(fields))
+    throw MalformedRecord(fmt::format("expected 7 fields of a sentence of AIS, but got {}", count));
+  std::string_view rest = content;
+  for (std::string_view& field : fields) field = take_part(rest, ',');
   const auto of = digit_in(fields[1], '1', '9'), number = digit_in(fields[2], '1', '9');
   const auto fill_bits = digit_in(fields[6], '0', '5');
   if (!of || !number || *number > *of)
@@ -100,23 +97,18 @@ AisSentence sentence_of(std::string_view content) {
 
 /// Returns the time of PGHP,1,YEAR,MONTH,DAY,HOUR,MINUTE,SECOND,MILLISECOND,...; nothing for other text.
 std::optional<TimeField> time_of_pghp(std::string_view content) {
-  std::vector<std::string_view> fields;
-  for (std::string_view rest = content;; rest.remove_prefix(fields.back().size() + 1)) {
-    fields.push_back(rest.substr(0, rest.find(',')));
-    if (fields.back().size() == rest.size()) break;
-  }
+  const auto fields = fields_of(content, ',');
   if (fields.size() < 9 || fields[1] != "1") return std::nullopt;
-  int numbers[7] = {};
+  std::size_t numbers[7] = {};
   for (std::size_t k = 0; k < std::size(numbers); ++k) {
-    const std::string_view field = fields[k + 2];
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), numbers[k]);
-    if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
+    const auto number = count_in(fields[k + 2]);
+    if (!number) return std::nullopt;
+    numbers[k] = *number;
   }
   const auto [year, month, day, hour, minute, second, millisecond] = numbers;
   const auto date = parse_date_time(fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}", year, month, day,
                                                 hour, minute, second, millisecond));
-  if (!date) return std::nullopt;
-  return TimeField{date->time, TimeKind::number};
+  return date ? std::optional(TimeField{date->time, TimeKind::number}) : std::nullopt;
 }
 
 /// Returns where !--VDM or !--VDO of any talker begins in the text; npos if it has none.
@@ -191,8 +183,7 @@ std::optional<TimeField> read_head(std::string_view head, NmeaLine& line) {
     begin = head.find('\\', end + 1);
     if (!tag.is_whole()) continue;
     for (std::string_view fields = tag.content; !fields.empty();) {
-      const std::string_view field = fields.substr(0, fields.find(','));
-      fields.remove_prefix(std::min(field.size() + 1, fields.size()));
+      const std::string_view field = take_part(fields, ',');
       if (field.size() < 2 || field[1] != ':') continue;
       const std::string_view value = field.substr(2);
       if (field[0] == 'c') received = time_of_receipt(value);
@@ -244,6 +235,31 @@ bool looks_like_nmea(std::string_view line) {
   // A tag block in a line of its own, or before a sentence of another kind.
   const std::size_t end = line.starts_with('\\') ? line.find('\\', 1) : std::string_view::npos;
   return end != std::string_view::npos && line.substr(0, end).find('*') != std::string_view::npos;
+}
+
+std::optional<GpsFix> gps_fix_in(std::string_view line) {
+  const std::size_t begin = line.find('$');
+  if (begin == std::string_view::npos || line.size() < begin + 7 || line.substr(begin + 3, 4) != "RMC,")
+    return std::nullopt;
+  const CheckedText split = split_checksum(line.substr(begin + 1));
+  if (split.said && !split.is_whole()) return std::nullopt;
+  // Time, validity, latitude and N or S, longitude and E or W, speed, course, date.
+  const auto fields = fields_of(split.content, ',');
+  if (fields.size() < 10 || fields[2] != "A") return std::nullopt;
+  const auto clock = logged_clock(fields[1]);
+  const auto day = logged_date(fields[9]);
+  const auto latitude = degrees_and_minutes(fields[3], fields[4]);
+  const auto longitude = degrees_and_minutes(fields[5], fields[6]);
+  if (!clock || !day || !latitude || !longitude || std::abs(*latitude) > 90.0 || std::abs(*longitude) > 180.0)
+    return std::nullopt;
+  const double whole = std::floor(clock->second);
+  return GpsFix{
+      .time = {86'400 * std::int64_t{day->time_since_epoch().count()} + static_cast<std::int64_t>(whole),
+               clock->second - whole},
+      .longitude = *longitude,
+      .latitude = *latitude,
+      .speed = parse_number(fields[7]),
+      .course = parse_number(fields[8])};
 }
 
 }  // namespace kinesphere::program

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "base/ascii_text.hpp"
 #include "formats/fields/line_text.hpp"
@@ -23,8 +24,8 @@ struct FileKind {
 constexpr std::string_view as_csv = ": write it as CSV, with pandas for example";
 constexpr std::string_view utf_16 = "text in UTF-16: convert it with iconv -f UTF-16 -t UTF-8";
 constexpr std::string_view molecular =
-    "a trajectory of molecular dynamics (XTC, TRR or DCD): write it as GRO or PDB, with gmx trjconv or "
-    "mdconvert";
+    "a trajectory of molecular dynamics (XTC, TRR or DCD): write it as XYZ, with MDAnalysis: "
+    "Universe(...).atoms.write('atoms.xyz', frames='all')";
 constexpr std::string_view mode_s =
     "raw messages of Mode S (Beast or AVR): decode them with readsb or dump1090, and read port 30003 (SBS) "
     "or aircraft.json";
@@ -52,9 +53,10 @@ constexpr std::string_view ethovision =
     "an export of EthoVision, with lines about the trial: leave them out, with the line of pandas in "
     "docs/tables.md";
 constexpr std::string_view xvg =
-    "coordinates of GROMACS in a column each (.xvg): write the trajectory as GRO, with gmx trjconv, or use "
-    "the "
-    "line of pandas in docs/tables.md";
+    "coordinates of GROMACS in a column each (.xvg): make a table with the line of pandas in docs/tables.md";
+constexpr std::string_view molecules =
+    "frames of atoms (GRO or PDB): make a table with the line of pandas in docs/tables.md, of what gmx "
+    "trjconv -pbc nojump writes";
 
 /// Files that begin with certain bytes.
 constexpr FileKind kinds_by_bytes[] = {
@@ -82,6 +84,13 @@ constexpr FileKind kinds_by_bytes[] = {
     {"MATLAB"sv, "a .mat file: write its table as CSV, with writetable"},
     {"\x93NUMPY"sv, "a NumPy file: write it as CSV, with numpy.savetxt"},
     {"SQLite format 3"sv, "a SQLite database: write its table as CSV, with sqlite3 -csv -header"},
+    {"ATOM  "sv, molecules},
+    {"HETATM"sv, molecules},
+    {"CRYST1"sv, molecules},
+    {"TITLE     "sv, molecules},
+    {"REMARK "sv, molecules},
+    {"MODEL  "sv, molecules},
+    {"HEADER    "sv, molecules},
     {"#ROSBAG"sv, "a ROS bag: write the topic as CSV"},
     {"ULog\x01\x12\x35"sv, "a PX4 log: write it as CSV, with ulog2csv"},
     {"\x1A\x31"sv, mode_s},
@@ -181,6 +190,19 @@ bool is_so6(std::string_view line) {
          words[11].size() == 6 && words[10].find_first_not_of("0123456789") == words[10].npos;
 }
 
+/// A frame of GROMACS: below a title a count, and atoms with two numbers of five columns before their places.
+bool is_gro(std::string_view second, std::string_view third) {
+  return count_in(trimmed(second)) && third.size() > 20 && count_in(trimmed(third.substr(0, 5))) &&
+         count_in(trimmed(third.substr(15, 5))) && third.find('.', 20) != third.npos;
+}
+
+/// The rows above the numbers of DeepLabCut and Lightning Pose.
+bool is_deeplabcut(std::span<const std::string_view, 3> lines) {
+  return lines[0].starts_with("scorer,") &&
+         ((lines[1].starts_with("bodyparts,") && lines[2].starts_with("coords,")) ||
+          (lines[1].starts_with("individuals,") && lines[2].starts_with("bodyparts,")));
+}
+
 /// An object of JSON behind other text, as mosquitto_sub -v and servers that send events write it.
 bool has_json_behind_text(std::string_view line) {
   const std::size_t object = line.find("{\"");
@@ -196,18 +218,24 @@ std::string kind_by_lines(std::string_view text) {
   const std::string_view whole = text;
   std::array<std::string_view, 3> lines;
   for (std::string_view& line : lines) {
-    line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    line = take_part(text, '\n');
     if (line.ends_with('\r')) line.remove_suffix(1);
   }
   if (are_orbital_elements(lines[0], lines[1]) || are_orbital_elements(lines[1], lines[2]))
     return fmt::format(elements, "TLE");
   if (has_json_behind_text(lines[0]) || has_json_behind_text(lines[1]))
     return "JSON behind other text: leave that out, with sed -n 's/^[^{]*{/{/p' (-u in a pipe)";
+  if (whole.substr(0, 400).find("\nData Block ") != whole.npos || lines[0].starts_with("Asterix.CAT"))
+    return "ASTERIX as text: write it as JSON, with asterix -j";
   if (lines[0].starts_with("$node_(") || lines[0].starts_with("$ns_ at"))
     return "movements of ns-2, which say where each goes next and how fast: write the time and place at both "
            "ends "
            "of each move as a row of a table with the columns id, time, x and y";
+  if (is_gro(lines[1], lines[2])) return std::string(molecules);
+  if (is_deeplabcut(lines))
+    return "a table of DeepLabCut, with rows of names above its numbers: make a table with the line of "
+           "pandas in "
+           "docs/tables.md";
   if (is_tracab(lines[0])) return fmt::format("tracking data of TRACAB: {}", as_players);
   if (lines[0].starts_with(",,,Home,") || lines[0].starts_with(",,,Away,"))
     return fmt::format("tracking data of Metrica, in parts of the pitch: {}", as_players);

@@ -19,10 +19,7 @@ constexpr RecordingKind kinds[] = {
      read_fcd},
     {"a dump of LAMMPS", [](std::string_view text) { return text.starts_with("ITEM: "); }, read_lammps},
     {"XYZ", is_xyz, read_xyz},
-    {"a .gro file of GROMACS", is_gro, read_gro},
-    {"a PDB file", is_pdb, read_pdb},
     {"a log of a GPS receiver", is_gps_log, read_gps_log},
-    {"a table of DeepLabCut", is_deeplabcut, read_deeplabcut},
     {"an export of motion capture", is_motion_capture, read_motion_capture},
     {"a record of Vissim", is_vissim, read_vissim},
     {"a table of pNEUMA", is_pneuma, read_pneuma},
@@ -31,6 +28,8 @@ constexpr RecordingKind kinds[] = {
      [](std::string_view text) { return trimmed(text.substr(0, 100)).starts_with("CCSDS_OEM_VERS"); },
      read_oem},
     {"GeoJSON", is_geojson, read_geojson},
+    {"a feed of GTFS-realtime", is_gtfs, read_gtfs},
+    {"ASTERIX in JSON", is_asterix, read_asterix},
     {"a list of JSON records", is_json_list, read_json_list, true},
     {"JSON records in lines", are_json_lines, read_json_lines, true}};
 
@@ -62,11 +61,6 @@ std::string_view root_element(std::string_view text) {
   text.remove_prefix(1);
   const std::string_view name = text.substr(0, text.find_first_of(" \t\r\n/<>"));
   return name.substr(name.rfind(':') + 1);
-}
-
-ProgramError without_expat(const std::string& file, std::string_view kind) {
-  return ProgramError(
-      fmt::format("{}: {} needs expat, and this program was built without it (libexpat1-dev)", file, kind));
 }
 
 }  // namespace kinesphere::program

@@ -38,17 +38,16 @@ RowTable read_kml(const RecordingText& recording);
 RowTable read_fcd(const RecordingText& recording);
 RowTable read_xyz(const RecordingText& recording);
 RowTable read_lammps(const RecordingText& recording);
-RowTable read_gro(const RecordingText& recording);
-RowTable read_pdb(const RecordingText& recording);
 RowTable read_gps_log(const RecordingText& recording);
 RowTable read_igc(const RecordingText& recording);
 RowTable read_plt(const RecordingText& recording);
-RowTable read_deeplabcut(const RecordingText& recording);
 RowTable read_motion_capture(const RecordingText& recording);
 RowTable read_vissim(const RecordingText& recording);
 RowTable read_pneuma(const RecordingText& recording);
 RowTable read_oem(const RecordingText& recording);
 RowTable read_geojson(const RecordingText& recording);
+RowTable read_gtfs(const RecordingText& recording);
+RowTable read_asterix(const RecordingText& recording);
 RowTable read_json_trace(const RecordingText& recording);
 RowTable read_json_list(const RecordingText& recording);
 RowTable read_json_lines(const RecordingText& recording);
@@ -56,9 +55,6 @@ RowTable read_json_lines(const RecordingText& recording);
 // What a text is by its beginning.
 bool is_igc(std::string_view text);
 bool is_gps_log(std::string_view text);
-bool is_deeplabcut(std::string_view text);
-bool is_gro(std::string_view text);
-bool is_pdb(std::string_view text);
 bool is_xyz(std::string_view text);
 bool is_vissim(std::string_view text);
 bool is_pneuma(std::string_view text);
@@ -66,6 +62,8 @@ bool is_plt(std::string_view text);
 bool is_motion_capture(std::string_view text);
 bool is_json_trace(std::string_view text);
 bool is_geojson(std::string_view text);
+bool is_gtfs(std::string_view text);
+bool is_asterix(std::string_view text);
 /// A list of objects.
 bool is_json_list(std::string_view text);
 /// An object in each line.
@@ -80,8 +78,5 @@ bool is_strava(std::string_view text);
 /// Returns the name of the outermost element of XML, without a prefix; empty for other text, and where it
 /// comes later than this beginning.
 std::string_view root_element(std::string_view text);
-
-/// Returns the error for a file of a kind of XML in a program without expat.
-ProgramError without_expat(const std::string& file, std::string_view kind);
 
 }  // namespace kinesphere::program

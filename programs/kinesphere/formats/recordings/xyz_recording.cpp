@@ -42,10 +42,7 @@ XyzColumns columns_of_properties(std::string_view properties) {
   XyzColumns columns;
   if (properties.empty()) return columns;
   std::vector<std::string_view> parts;
-  while (!properties.empty()) {
-    parts.push_back(properties.substr(0, properties.find(':')));
-    properties.remove_prefix(std::min(parts.back().size() + 1, properties.size()));
-  }
+  while (!properties.empty()) parts.push_back(take_part(properties, ':'));
   std::size_t column = 0;
   for (std::size_t k = 0; k + 2 < parts.size(); k += 3) {
     if (same_name(parts[k], "id")) columns.id = column;

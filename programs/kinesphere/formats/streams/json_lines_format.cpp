@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "formats/fields/json_reading.hpp"
-#include "formats/streams/ground_speed.hpp"
 #include "formats/streams/report_format.hpp"
 
 namespace kinesphere::program {
@@ -42,21 +42,32 @@ class JsonLinesFormat final : public ReportFormat {
     ErrorPair position_error, velocity_error;
   };
 
+  template <class Value>
+  using Named = std::pair<std::string_view, std::optional<Value> Fields::*>;
+  static constexpr Named<double> numbers[] = {{"lat", &Fields::lat},
+                                              {"lon", &Fields::lon},
+                                              {"alt", &Fields::alt},
+                                              {"stamp_error", &Fields::stamp_error}};
+  static constexpr Named<TimeField> times[] = {{"stamp", &Fields::stamp}, {"arrival", &Fields::arrival}};
+
   [[noreturn]] static void fail(std::string_view field, std::string_view what) {
     throw MalformedRecord(fmt::format("expected {} as \"{}\"", what, field));
   }
 
   void read_field(std::string_view key, ondemand::value value) {
+    for (const auto& [name, place] : numbers)
+      if (key == name) return void(fields_.*place = number_of(value, key));
+    for (const auto& [name, place] : times)
+      if (key == name) return void(fields_.*place = time_in(value, key));
     if (key == "id") {
-      read_id(value);
+      const ondemand::json_type type = value.type();
+      if (type != ondemand::json_type::string && type != ondemand::json_type::number)
+        fail("id", "a text or a number");
+      fields_.id = text_of(value);
     } else if (key == "name") {
       const char* wrong = nullptr;
       fields_.name = text_in(value, "name", wrong).value_or("");
       if (wrong != nullptr) fail("name", "a text");
-    } else if (key == "stamp") {
-      fields_.stamp = time_in(value, key);
-    } else if (key == "arrival") {
-      fields_.arrival = time_in(value, key);
     } else if (key == "position") {
       fields_.position = vector_in(value, key, fields_.has_z);
     } else if (key == "velocity") {
@@ -65,14 +76,6 @@ class JsonLinesFormat final : public ReportFormat {
       fields_.position_error = error_in(value, key);
     } else if (key == "velocity_error") {
       fields_.velocity_error = error_in(value, key);
-    } else if (key == "stamp_error") {
-      fields_.stamp_error = number_of(value, key);
-    } else if (key == "lat") {
-      fields_.lat = number_of(value, key);
-    } else if (key == "lon") {
-      fields_.lon = number_of(value, key);
-    } else if (key == "alt") {
-      fields_.alt = number_of(value, key);
     } else {
       throw MalformedRecord(fmt::format(
           "expected id, name, stamp, arrival, position, velocity, position_error, velocity_error, "
@@ -89,29 +92,16 @@ class JsonLinesFormat final : public ReportFormat {
     return number;
   }
 
-  void read_id(ondemand::value value) {
-    const ondemand::json_type type = value.type();
-    if (type == ondemand::json_type::string) {
-      fields_.id = std::string_view(value.get_string());
-    } else if (type == ondemand::json_type::number) {
-      std::string_view token = value.raw_json_token();
-      while (!token.empty() && (token.back() == ' ' || token.back() == '\t')) token.remove_suffix(1);
-      fields_.id = token;
-    } else {
-      fail("id", "a text or a number");
-    }
+  /// Returns a text, or a number as it is written. Precondition: no list or object.
+  static std::string_view text_of(ondemand::value& value) {
+    return value.type() == ondemand::json_type::string ? std::string_view(value.get_string())
+                                                       : token_of(value);
   }
 
   static TimeField time_in(ondemand::value value, std::string_view key) {
     const ondemand::json_type type = value.type();
-    std::optional<TimeField> time;
-    if (type == ondemand::json_type::string) {
-      time = time_field(std::string_view(value.get_string()));
-    } else if (type == ondemand::json_type::number) {
-      std::string_view token = value.raw_json_token();
-      while (!token.empty() && (token.back() == ' ' || token.back() == '\t')) token.remove_suffix(1);
-      time = time_field(token);
-    }
+    const bool may_be = type == ondemand::json_type::string || type == ondemand::json_type::number;
+    const auto time = may_be ? time_field(text_of(value)) : std::nullopt;
     if (!time) fail(key, "a time");
     return *time;
   }

@@ -11,10 +11,7 @@
 #include "formats/fields/units.hpp"
 #include "formats/nmea/ais_message.hpp"
 #include "formats/nmea/nmea_line.hpp"
-#include "formats/recordings/gps_fix.hpp"
-#include "formats/streams/ground_speed.hpp"
 #include "formats/streams/known_names.hpp"
-#include "formats/streams/recent_values.hpp"
 #include "formats/streams/report_format.hpp"
 #include "formats/streams/sentence_assembler.hpp"
 

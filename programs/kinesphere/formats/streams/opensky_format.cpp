@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "formats/fields/json_reading.hpp"
-#include "formats/streams/ground_speed.hpp"
 #include "formats/streams/report_format.hpp"
 
 namespace kinesphere::program {

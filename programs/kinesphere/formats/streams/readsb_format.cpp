@@ -7,7 +7,6 @@
 
 #include "formats/fields/json_reading.hpp"
 #include "formats/fields/units.hpp"
-#include "formats/streams/ground_speed.hpp"
 #include "formats/streams/report_format.hpp"
 
 namespace kinesphere::program {
@@ -49,15 +48,12 @@ struct AircraftEntry {
       if (key == "hex") {
         hex = text_in(value, "hex", wrong);
       } else if (key == "flight") {
-        const char* ignored = nullptr;
-        flight = text_in(value, "flight", ignored);
+        flight = text_if_any(value);
       } else if (key == "type") {
-        const char* ignored = nullptr;
-        const auto type = text_in(value, "type", ignored);
+        const auto type = text_if_any(value);
         if (type && !type->starts_with("adsb") && !type->starts_with("adsr")) is_from_aircraft = false;
       } else if (key == "category" || key == "t") {
-        const char* ignored = nullptr;
-        (key == "t" ? designator : category) = text_in(value, "", ignored);
+        (key == "t" ? designator : category) = text_if_any(value);
       } else if (key == "mlat" || key == "tisb") {
         // Names of the fields of that source.
         ondemand::array names;

@@ -11,11 +11,11 @@
 #include <string>
 #include <utility>
 
+#include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/fields/degree_check.hpp"
-#include "formats/fields/time_check.hpp"
-#include "formats/streams/ground_speed.hpp"
+#include "formats/fields/field_text.hpp"
+#include "formats/fields/suspicions.hpp"
 #include "formats/tables/presets.hpp"
 #include "formats/tables/row_reader.hpp"
 
@@ -69,6 +69,7 @@ class ReportsOfRows final : public RowReports {
   nlohmann::json save() const override {
     nlohmann::json state{{"midnights", midnights_}};
     if (last_clock_) state["clock"] = *last_clock_;
+    if (reader_) state["dates"] = static_cast<int>(reader_->columns().dates);
     return state;
   }
   void restore(const nlohmann::json& state) override {
@@ -76,6 +77,8 @@ class ReportsOfRows final : public RowReports {
     if (state.contains("clock")) last_clock_ = state.at("clock").get<std::int64_t>();
     if (head_.columns() > 0) begin();
     has_handed_over_ = reader_.has_value();
+    if (reader_ && state.contains("dates"))
+      reader_->set_dates(static_cast<DateOrder>(state.at("dates").get<int>()));
     // The earlier run has asked.
     if (reader_) checked_ = most_checked;
     is_checking_clock_ = false;
@@ -129,6 +132,7 @@ class ReportsOfRows final : public RowReports {
       columns.format = recording_->format;
       columns.has_named_fields = true;
       columns.id_is_file = columns.id_is_file || recording_->is_one_body;
+      if (recording_->place_on_body != TableColumns::Place::middle) columns.place = recording_->place_on_body;
     }
     reader_.emplace(head_, std::move(columns));
     for (const TableColumns::Body& body : reader_->columns().bodies)
@@ -137,17 +141,21 @@ class ReportsOfRows final : public RowReports {
       if (column) columns_needed_ = std::max(columns_needed_, column->place + 1);
     if (const auto rest = reader_->columns().nanoseconds)
       columns_needed_ = std::max(columns_needed_, *rest + 1);
-    name_column_ = column_of_names();
-    ground_column_ = column_of_ground();
+    // Such names may be ids elsewhere, so one that is read as an id does not count.
+    const auto& id = reader_->columns()[Quantity::id];
+    const auto of_id = id ? std::optional(id->place) : std::nullopt;
+    name_column_ = column_called({"vesselname", "shipname", "callsign", "flight"}, of_id);
+    if (!name_column_ && is_ais_) name_column_ = column_called({"name"}, of_id);
+    ground_column_ = column_called({"onground", "isonground"});
     find_class_columns();
   }
 
-  /// Returns the column that says whether an aircraft is on the ground.
-  std::optional<std::size_t> column_of_ground() const {
-    for (std::size_t place = 0; place < head_.names.size(); ++place) {
-      const std::string name = plain_name(head_.names[place]);
-      if (name == "onground" || name == "isonground") return place;
-    }
+  /// Returns the first column with one of these names, in their order; nothing if there is none.
+  std::optional<std::size_t> column_called(std::initializer_list<std::string_view> wanted,
+                                           std::optional<std::size_t> without = {}) const {
+    for (const std::string_view name : wanted)
+      for (std::size_t place = 0; place < head_.names.size(); ++place)
+        if (place != without && plain_name(head_.names[place]) == name) return place;
     return std::nullopt;
   }
   /// True if the row has no height and says that it is on the ground, there or in a column of its own.
@@ -159,18 +167,6 @@ class ReportsOfRows final : public RowReports {
     const std::string_view said = (*fields_)[*ground_column_];
     return said == "1" || said == "-1" || same_name(said, "true") || same_name(said, "t") ||
            same_name(said, "yes");
-  }
-
-  /// Returns the column with callsigns or ships' names. Such names may be ids elsewhere, so one that is read
-  /// as an id does not count.
-  std::optional<std::size_t> column_of_names() const {
-    const auto& id = reader_->columns()[Quantity::id];
-    for (const std::string_view wanted : {"vesselname", "shipname", "callsign", "flight", "name"}) {
-      if (wanted == "name" && !is_ais_) continue;
-      for (std::size_t place = 0; place < head_.names.size(); ++place)
-        if (plain_name(head_.names[place]) == wanted && !(id && id->place == place)) return place;
-    }
-    return std::nullopt;
   }
 
   /// Returns a number in metres and seconds.
@@ -254,6 +250,7 @@ class ReportsOfRows final : public RowReports {
     if (!length || !width || !(*length > 0.0 && *width > 0.0)) return;
     report.written.length = *length;
     report.written.width = *width;
+    report.written.height = std::max(0.0, number(Quantity::body_height).value_or(0.0));
     report.extent = std::hypot(*length, *width) / 2;
   }
 
@@ -326,12 +323,9 @@ class ReportsOfRows final : public RowReports {
   /// Finds the columns that say what a track is; tables of AIS have such.
   void find_class_columns() {
     if (!is_ais_ && !reader_->columns().is_ais) return;
-    for (std::size_t place = 0; place < head_.names.size(); ++place) {
-      const std::string name = plain_name(head_.names[place]);
-      if (name == "status" || name == "navigationalstatus" || name == "navstatus") status_ = place;
-      if (name == "vesseltype" || name == "shiptype") type_ = place;
-      if (name == "typeofmobile") mobile_ = place;
-    }
+    status_ = column_called({"status", "navigationalstatus", "navstatus"});
+    type_ = column_called({"vesseltype", "shiptype"});
+    mobile_ = column_called({"typeofmobile"});
     if (status_) sayable_.push_back(MotionPreset::vessel_at_rest);
     if (type_)
       sayable_.insert(sayable_.end(), {MotionPreset::high_speed_craft, MotionPreset::wing_in_ground});

@@ -11,7 +11,6 @@
 
 #include "base/number_text.hpp"
 #include "formats/fields/units.hpp"
-#include "formats/streams/ground_speed.hpp"
 #include "formats/streams/known_names.hpp"
 #include "formats/streams/report_format.hpp"
 #include "formats/tables/row_splitter.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/nmea/ais_bits.hpp"
+#include "formats/nmea/ais_message.hpp"
 #include "formats/nmea/nmea_line.hpp"
 #include "formats/streams/source_report.hpp"
 

@@ -26,8 +26,8 @@ struct DeclaredError {
 struct WrittenSample {
   std::optional<TimeField> time{};
   Vec3 position{};
-  double length = 0.0, width = 0.0;  ///< metres; 0: not known
-  std::optional<double> heading{};   ///< which way the body points
+  double length = 0.0, width = 0.0, height = 0.0;  ///< of the body, in metres; 0: not known
+  std::optional<double> heading{};                 ///< which way the body points
 };
 
 /// Lengths and times are in the units of the stream: metres and seconds if it has units.
@@ -83,6 +83,23 @@ struct SourceReport {
 /// Returns true for degrees of a place on the earth.
 inline bool is_place(double longitude, double latitude) {
   return std::abs(latitude) <= 90.0 && std::abs(longitude) <= 360.0;
+}
+
+/// Returns the velocity of a speed over ground and a course, in degrees clockwise from north.
+inline Vec3 going(double speed, double course, double climb) {
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  return {speed * std::sin(course * degree), speed * std::cos(course * degree), climb};
+}
+
+/// Sets the velocity of a report, as far as it is known. A speed without a course is one in any direction.
+inline void set_velocity(SourceReport& report, std::optional<double> speed, std::optional<double> course,
+                         std::optional<double> climb) {
+  report.has_climb = climb.has_value();
+  if (!speed) return;
+  report.ground_speed = std::abs(*speed);
+  report.velocity =
+      course ? going(*speed, *course, climb.value_or(0.0)) : Vec3{0.0, 0.0, climb.value_or(0.0)};
+  report.velocity_spread = course ? 0.0 : std::abs(*speed);
 }
 
 /// Reasons for which a valid record is skipped.

@@ -9,6 +9,7 @@
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "formats/fields/field_text.hpp"
+#include "formats/fields/line_text.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -70,6 +71,7 @@ constexpr QuantityNames quantities[quantity_count] = {
     {Quantity::stamp_error, "stamp_error", Measure::time, "stamperror"},
     {Quantity::length, "length", Measure::length, "vehiclelength objectlength"},
     {Quantity::width, "width", Measure::length, "vehiclewidth objectwidth"},
+    {Quantity::body_height, "body_height", Measure::length, "bodyheight vehicleheight objectheight"},
     {Quantity::heading, "heading", Measure::angle, "yaw psi headingangle yawangle"}};
 
 const QuantityNames& names_of(Quantity quantity) { return quantities[static_cast<std::size_t>(quantity)]; }
@@ -77,11 +79,8 @@ const QuantityNames& names_of(Quantity quantity) { return quantities[static_cast
 /// Calls `visit` with each word, until it returns true; returns whether it did.
 template <class Visitor>
 bool any_word(std::string_view words, Visitor visit) {
-  while (!words.empty()) {
-    const std::string_view word = words.substr(0, words.find(' '));
-    words.remove_prefix(std::min(word.size() + 1, words.size()));
-    if (visit(word)) return true;
-  }
+  while (!words.empty())
+    if (visit(take_part(words, ' '))) return true;
   return false;
 }
 
@@ -112,10 +111,6 @@ bool is_unit_of(Measure measure, std::string_view unit) {
 
 /// What may stand between a name and its unit. R writes "x (m)" as x..m.
 constexpr std::string_view between_words = " _-.:,([{/";
-
-bool is_word_of(std::string_view word, std::string_view words) {
-  return any_word(words, [&](std::string_view each) { return same_name(each, word); });
-}
 
 /// Returns the text behind `at` as a unit: without brackets, blanks, the word "in" and, of a height, what it
 /// is above: "(ft MSL)", "_m_agl", "[ft] above sea level".
@@ -375,8 +370,8 @@ bool is_nobody(std::string_view column_name, std::string_view id) {
   if (id.starts_with('0'))
     return parse_number(id) == 0.0 && is_word_of(plain_name(column_name), "mmsi icao24 hex");
   if (id.starts_with('-') && parse_number(id)) return true;
-  return is_missing(id) || any_word("unknown unk undefined unassigned untracked nobody noise no_id noid",
-                                    [&](std::string_view each) { return same_name(each, id); });
+  return is_missing(id) ||
+         is_word_of(id, "unknown unk undefined unassigned untracked nobody noise no_id noid");
 }
 
 }  // namespace kinesphere::program

@@ -35,6 +35,7 @@ enum class Quantity {
   stamp_error,
   length,
   width,
+  body_height,
   heading,  ///< which way a body points
 };
 inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::heading) + 1;

@@ -1,6 +1,4 @@
 // Units of the numbers in columns, by names, options and what is usual.
-#include "formats/tables/column_units.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +7,7 @@
 #include "base/ascii_text.hpp"
 #include "base/program_error.hpp"
 #include "formats/fields/units.hpp"
-#include "formats/tables/column_words.hpp"
+#include "formats/tables/column_steps.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -1,5 +1,5 @@
 // Columns in messages and as the option --columns takes them.
-#include "formats/tables/column_words.hpp"
+#include "formats/tables/column_steps.hpp"
 
 #include <fmt/format.h>
 

@@ -14,8 +14,10 @@
 #include "base/ascii_text.hpp"
 #include "base/program_error.hpp"
 #include "formats/fields/json_reading.hpp"
+#include "formats/fields/line_text.hpp"
 #include "formats/fields/time_text.hpp"
 #include "formats/tables/column_names.hpp"
+#include "formats/tables/record_cutter.hpp"
 #include "formats/tables/row_table.hpp"
 
 namespace kinesphere::program {
@@ -169,6 +171,44 @@ void read_json(const std::string& file, const std::size_t& line, Action read) {
   } catch (const MalformedRecord& error) {
     throw ProgramError(fmt::format("{}:{}: {}", file, line, error.what()));
   }
+}
+
+/// Calls `take` with each outermost object of a text and its line: documents one behind the other, with
+/// commas or line ends between them, or in a list. Throws ProgramError naming file and line.
+template <class Take>
+void for_each_object(const std::string& file, std::string_view text, Take take) {
+  RecordCutter cutter(RecordCutter::Kind::documents);
+  cutter.feed(text);
+  simdjson::dom::parser parser;
+  const auto read = [&](const Record& record) {
+    if (!record.text.starts_with('{')) return;
+    simdjson::dom::element object;
+    if (const auto error = parser.parse(record.text.data(), record.text.size()).get(object))
+      throw ProgramError(
+          fmt::format("{}:{}: expected JSON: {}", file, record.line, simdjson::error_message(error)));
+    take(object, record.line);
+  };
+  while (const auto record = cutter.next()) read(*record);
+  if (const auto record = cutter.rest()) read(*record);
+}
+
+/// Returns the value of an object with this name, however its words are separated; nothing if there is none.
+inline std::optional<simdjson::dom::element> member(simdjson::dom::element element, std::string_view name) {
+  simdjson::dom::object object;
+  if (element.get(object)) return std::nullopt;
+  for (const auto& [key, value] : object)
+    if (plain_name(key) == plain_name(name)) return value;
+  return std::nullopt;
+}
+
+/// Returns a text or number behind names with / between them, as "vehicle/position/latitude"; empty if there
+/// is none.
+inline std::string text_at(std::optional<simdjson::dom::element> element, std::string_view path) {
+  while (element && !path.empty()) element = member(*element, take_part(path, '/'));
+  if (!element) return {};
+  if (element->is_string()) return std::string(element->get_string().value_unsafe());
+  if (element->is_int64()) return fmt::format("{}", element->get_int64().value_unsafe());
+  return element->is_double() ? fmt::format("{}", element->get_double().value_unsafe()) : std::string();
 }
 
 }  // namespace kinesphere::program

@@ -1,13 +1,11 @@
 // Columns that may be meant, for messages that ask for --columns.
-#include "formats/tables/likely_columns.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
 
-#include "formats/tables/column_words.hpp"
+#include "formats/tables/column_steps.hpp"
 
 namespace kinesphere::program {
 

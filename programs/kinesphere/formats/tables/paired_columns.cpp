@@ -1,6 +1,4 @@
 // Tables in which each body has columns of its own.
-#include "formats/tables/paired_columns.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,9 +7,7 @@
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/tables/column_units.hpp"
-#include "formats/tables/column_words.hpp"
-#include "formats/tables/likely_columns.hpp"
+#include "formats/tables/column_steps.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -10,6 +10,18 @@
 
 namespace kinesphere::program {
 
+/// What a preset knows besides the names of columns.
+struct PresetRules {
+  double frame_rate = 0.0;  ///< frames per second; 0: unknown, or no frames
+  DateOrder dates = DateOrder::unknown;
+  std::string_view where{};  ///< rows that count
+  TableColumns::Film film = TableColumns::Film::none;
+  std::size_t least_columns = 0;  ///< of a table without a header
+  bool has_own_heights = false;   ///< its heights are those of the bodies themselves, not of their places
+  bool has_own_origin = false;    ///< times or places count from the start of each body
+  TableColumns::Place place = TableColumns::Place::middle;
+};
+
 struct Preset {
   std::string_view name;   ///< of --format
   std::string_view title;  ///< in the summary
@@ -20,14 +32,7 @@ struct Preset {
   /// Names that the header must have to be recognised, separated by commas, as in `columns`; empty: the
   /// header does not tell.
   std::string_view header{};
-  double frame_rate = 0.0;  ///< frames per second; 0: unknown, or no frames
-  DateOrder dates = DateOrder::unknown;
-  std::string_view where{};  ///< rows that count
-  TableColumns::Film film = TableColumns::Film::none;
-  std::size_t least_columns = 0;  ///< of a table without a header
-  bool has_own_heights = false;   ///< its heights are those of the bodies themselves, not of their places
-  bool has_own_origin = false;    ///< times or places count from the start of each body
-  TableColumns::Place place = TableColumns::Place::middle;
+  PresetRules rules{};
 };
 
 /// Returns the preset of --format; null for another name.

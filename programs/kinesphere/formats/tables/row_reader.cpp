@@ -11,21 +11,13 @@
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "formats/fields/field_text.hpp"
+#include "formats/fields/line_text.hpp"
 
 namespace kinesphere::program {
 namespace {
 
 /// Larger numbers are not Unix times in seconds.
 constexpr std::int64_t last_likely_second = 100'000'000'000;
-
-bool is_one_of(std::string_view value, std::string_view words) {
-  while (!words.empty()) {
-    const std::string_view word = words.substr(0, words.find(' '));
-    if (same_name(word, value)) return true;
-    words.remove_prefix(std::min(word.size() + 1, words.size()));
-  }
-  return false;
-}
 
 /// True for a time of day such as 9:30, 09:30:15.5, 09:30:15 PM, and for a duration such as 0 days 09:30:15.
 bool is_clock(std::string_view text) {
@@ -40,6 +32,16 @@ bool ends_in_zone(std::string_view text, DateOrder order) {
   const std::string_view name = text.substr(std::min(blank + 1, text.size()));
   const bool are_letters = std::all_of(name.begin(), name.end(), [](char c) { return 'A' <= c && c <= 'Z'; });
   return name.size() >= 2 && are_letters && parse_date_time(text.substr(0, blank), order).has_value();
+}
+
+/// Returns the only order in which the numbers of a date are one; nothing for other text.
+std::optional<DateOrder> only_order_of(std::string_view text) {
+  if (!parse_date_time(text, DateOrder::any) || parse_date_time(text, DateOrder::year_first))
+    return std::nullopt;
+  const bool day_first = parse_date_time(text, DateOrder::day_first).has_value(),
+             month_first = parse_date_time(text, DateOrder::month_first).has_value();
+  if (day_first == month_first) return std::nullopt;
+  return day_first ? DateOrder::day_first : DateOrder::month_first;
 }
 
 /// True for a number that a spreadsheet has rounded: 2.19E+08, which has fewer digits than it should.
@@ -108,7 +110,7 @@ void RowReader::set_row(const std::vector<std::string_view>& fields) {
 /// Asks about rows that their file marks as void.
 void RowReader::check_void_columns() const {
   for (const auto& [place, values] : void_columns_) {
-    if (place >= fields_->size() || !is_one_of(field(place), values)) continue;
+    if (place >= fields_->size() || !is_word_of(field(place), values)) continue;
     const std::string name = name_in_filter(head_.names[place]);
     throw OpenQuestion(
         fmt::format("'{}' as {} may mean that there is no such position: leave such rows out with --where "
@@ -244,6 +246,13 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
   std::string_view text = field(column->place);
   if (quantity == Quantity::time) text = with_nanoseconds(with_date(text));
   auto time = time_field(text, columns_.dates);
+  // Only one of the orders of day and month may be possible, as in 20/03/2021.
+  if (!time && columns_.dates == DateOrder::unknown)
+    if (const auto order = only_order_of(text)) {
+      columns_.dates = *order;
+      columns_.format += *order == DateOrder::day_first ? ", dates day first" : ", dates month first";
+      time = time_field(text, *order);
+    }
   if (!time && is_missing(text)) {
     if (!missing_) missing_ = {column->place, "time"};
     return std::nullopt;

@@ -42,6 +42,8 @@ class RowReader {
   const TableHead& head() const { return head_; }
   const TableColumns& columns() const { return columns_; }
   const RowFilter& filter() const { return filter_; }
+  /// Sets what earlier rows have shown of the order of day and month.
+  void set_dates(DateOrder dates) { columns_.dates = dates; }
   /// True if --where leaves the row out.
   bool leaves_out(const std::vector<std::string_view>& fields) const { return !filter_.takes(fields); }
 

@@ -8,9 +8,12 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "formats/tables/table_columns.hpp"
 
 namespace kinesphere::program {
 
@@ -27,6 +30,7 @@ class RowTable {
   std::vector<std::string> comments;  ///< that stand above a table: "framerate: 25 fps"
   std::vector<std::string> warnings;
   bool is_one_body = false;  ///< all rows are of one body, called like the file
+  TableColumns::Place place_on_body = TableColumns::Place::middle;  ///< where on a body its position is
 
   const std::vector<std::string>& names() const { return names_; }
   std::size_t size() const { return rows_.size(); }
@@ -43,7 +47,10 @@ class RowTable {
   template <class Value>
   void set(std::size_t column, const Value& value) {
     const auto begin = static_cast<std::ptrdiff_t>(text_.size());
-    fmt::format_to(std::back_inserter(text_), "{}", value);
+    if constexpr (std::is_convertible_v<const Value&, std::string_view>)
+      text_.append(std::string_view(value));
+    else
+      fmt::format_to(std::back_inserter(text_), "{}", value);
     std::replace_if(
         text_.begin() + begin, text_.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
     fields_.push_back({column, text_.size()});

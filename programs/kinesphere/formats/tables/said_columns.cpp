@@ -1,6 +1,4 @@
 // Columns that are said: by --columns, or by a preset.
-#include "formats/tables/said_columns.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,10 +6,9 @@
 #include <utility>
 
 #include "base/program_error.hpp"
+#include "formats/fields/line_text.hpp"
 #include "formats/fields/units.hpp"
-#include "formats/tables/column_units.hpp"
-#include "formats/tables/column_words.hpp"
-#include "formats/tables/presets.hpp"
+#include "formats/tables/column_steps.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -23,11 +20,7 @@ class SaidColumns {
       : head_(head), list_(list), preset_(preset) {}
 
   TableColumns read() {
-    for (std::string_view rest = list_; !rest.empty();) {
-      const std::string_view entry = rest.substr(0, rest.find(','));
-      rest.remove_prefix(std::min(entry.size() + 1, rest.size()));
-      read_entry(entry);
-    }
+    for (std::string_view rest = list_; !rest.empty();) read_entry(take_part(rest, ','));
     if (preset_ == nullptr) require_different_coordinates();
     return std::move(columns_);
   }
@@ -80,8 +73,7 @@ class SaidColumns {
   std::optional<std::size_t> place_of_any(std::string_view names) const {
     if (preset_ == nullptr) return place_of(head_, names);
     while (!names.empty()) {
-      const std::string_view name = names.substr(0, names.find('|'));
-      names.remove_prefix(std::min(name.size() + 1, names.size()));
+      const std::string_view name = take_part(names, '|');
       if (const auto place = preset_column(head_, name)) return place;
       if (const auto place = place_of(head_, name)) return place;
     }
@@ -92,7 +84,7 @@ class SaidColumns {
     if (preset_ != nullptr)
       throw ProgramError(fmt::format("{}: expected {} with --format {}, but it has {}", head_.file,
                                      preset_->header.empty()
-                                         ? fmt::format("{} columns or more", preset_->least_columns)
+                                         ? fmt::format("{} columns or more", preset_->rules.least_columns)
                                          : fmt::format("the columns {}", preset_->header),
                                      preset_->name, head_.text()));
     throw ProgramError(fmt::format(
@@ -113,20 +105,20 @@ TableColumns said_columns(const TableHead& head, std::string_view list, const Pr
 }
 
 TableColumns preset_columns(const TableHead& head, const Preset& preset) {
-  if (head.columns() < preset.least_columns)
+  if (head.columns() < preset.rules.least_columns)
     throw ProgramError(fmt::format("{}: expected {} columns or more with --format {}, but it has {}",
-                                   head.file, preset.least_columns, preset.name, head.text()));
+                                   head.file, preset.rules.least_columns, preset.name, head.text()));
   TableColumns columns = said_columns(head, preset.columns, &preset);
   columns.format = preset.title;
-  columns.has_own_heights = preset.has_own_heights;
-  columns.has_own_origin = preset.has_own_origin;
-  columns.film = preset.film;
-  columns.place = preset.place;
+  columns.has_own_heights = preset.rules.has_own_heights;
+  columns.has_own_origin = preset.rules.has_own_origin;
+  columns.film = preset.rules.film;
+  columns.place = preset.rules.place;
   columns.heading_is_from_x = columns[Quantity::heading].has_value();
-  columns.dates = preset.dates;
-  columns.where = preset.where;
-  if (preset.frame_rate > 0.0) {
-    columns.time_unit.rate = preset.frame_rate;
+  columns.dates = preset.rules.dates;
+  columns.where = preset.rules.where;
+  if (preset.rules.frame_rate > 0.0) {
+    columns.time_unit.rate = preset.rules.frame_rate;
     columns.time_unit_said = true;
   }
   return columns;

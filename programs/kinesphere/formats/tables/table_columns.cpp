@@ -13,14 +13,8 @@
 #include "base/program_error.hpp"
 #include "formats/fields/field_text.hpp"
 #include "formats/fields/units.hpp"
-#include "formats/tables/column_units.hpp"
-#include "formats/tables/column_words.hpp"
-#include "formats/tables/likely_columns.hpp"
-#include "formats/tables/paired_columns.hpp"
+#include "formats/tables/column_steps.hpp"
 #include "formats/tables/presets.hpp"
-#include "formats/tables/said_columns.hpp"
-#include "formats/tables/time_columns.hpp"
-#include "formats/tables/usual_columns.hpp"
 
 namespace kinesphere::program {
 namespace {

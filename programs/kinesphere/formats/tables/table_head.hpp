@@ -1,7 +1,9 @@
 // What stands before the rows of a table: comments, names of columns, their units.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +18,9 @@ struct TableHead {
   std::vector<std::string> first;     ///< fields of the first row of values
   char separator = ' ';
 
-  std::size_t columns() const { return first.size(); }
+  /// Columns that have a name, where there are names, and a value in the first row, which a stream may have
+  /// longer or shorter than its header.
+  std::size_t columns() const { return names.empty() ? first.size() : std::min(first.size(), names.size()); }
   /// Returns "the columns a, b, c", or "no header and 3 columns".
   std::string text() const;
 };
@@ -48,5 +52,10 @@ class TableHeadReader {
   bool is_complete_ = false;
   int rows_below_ = 0;  ///< of the header, that belong to it
 };
+
+/// Returns the number, from 1, of a line below the first whose fields are the usual names of a time or frame
+/// and of two coordinates, as many as the next line has; instruments write what they know of a recording
+/// above it. Nothing if there is none in the first 200 lines.
+std::optional<std::size_t> line_of_later_header(std::string_view text);
 
 }  // namespace kinesphere::program

@@ -1,6 +1,4 @@
 // The column of times, and the unit of its numbers.
-#include "formats/tables/time_columns.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +8,7 @@
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
 #include "formats/fields/units.hpp"
-#include "formats/tables/column_words.hpp"
+#include "formats/tables/column_steps.hpp"
 
 namespace kinesphere::program {
 namespace {

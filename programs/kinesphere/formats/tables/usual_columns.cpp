@@ -1,22 +1,19 @@
 // Columns by their usual names.
-#include "formats/tables/usual_columns.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <initializer_list>
 
 #include "base/program_error.hpp"
-#include "formats/tables/column_units.hpp"
-#include "formats/tables/column_words.hpp"
-#include "formats/tables/likely_columns.hpp"
+#include "formats/tables/column_steps.hpp"
 
 namespace kinesphere::program {
 namespace {
 
 /// True for what --sizes needs of a body.
 bool is_of_shape(Quantity quantity) {
-  return quantity == Quantity::length || quantity == Quantity::width || quantity == Quantity::heading;
+  return quantity == Quantity::length || quantity == Quantity::width || quantity == Quantity::body_height ||
+         quantity == Quantity::heading;
 }
 
 class UsualColumns {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "formats/fields/units.hpp"
-#include "formats/streams/recent_values.hpp"
+#include "formats/streams/known_names.hpp"
 #include "formats/streams/report_format.hpp"
 #include "formats/streams/sentence_assembler.hpp"
 #include "program/formats/ais/ais_encoder.hpp"

@@ -1,4 +1,5 @@
-// Finds numbers of times that may be those of a clock, or days.
+// Finds numbers that may mean something else than they seem: times that may be those of a clock, or days, and
+// lengths that may be degrees.
 #pragma once
 
 #include <cstddef>
@@ -31,6 +32,21 @@ class TimeCheck {
   bool are_parts_of_days_ = true, has_decimals_ = false;
   std::int64_t first_clock_ = 240'000, last_clock_ = 0;
   double least_ = unbounded, largest_ = -unbounded;
+};
+
+/// Gathers the x and y of a table whose names and units do not say whether they are lengths.
+class DegreeCheck {
+ public:
+  void add(double x, double y);
+  /// Returns "x (8 to 9) and y (47 to 48) may be degrees: say ..." if they have the range of degrees, are not
+  /// all whole, and are farther from zero than 8 times their width. Where the origin lies among the positions
+  /// or beside them, they are lengths: empty.
+  std::string suspicion() const;
+
+ private:
+  static constexpr double unbounded = std::numeric_limits<double>::infinity();
+  double least_x_ = unbounded, least_y_ = unbounded, largest_x_ = -unbounded, largest_y_ = -unbounded;
+  bool all_whole_ = true;
 };
 
 }  // namespace kinesphere::program
