@@ -104,7 +104,7 @@ TEST_F(MpiProgramCheckpoints, GoOnWithFilesPerRank) {
   const ProgramRun third = run_mpi(4, arguments("1", "--file-per-rank --resume"));
   EXPECT_EQ(third.exit_code, 0) << third.err;
   std::vector<std::string> of_all;
-  for (const std::string name : {"all.csv.0", "all.csv.1", "all.csv.2", "all.csv.3"}) {
+  for (const std::string& name : files_of(4)) {
     const std::vector<std::string> lines = lines_of(read_text(path(name)));
     ASSERT_FALSE(lines.empty());
     of_all.insert(of_all.end(), lines.begin() + 1, lines.end());

@@ -47,7 +47,7 @@ TEST_F(MpiProgramTest, FilesPerRankAddUpToTheFileOfOneWorld) {
   const ProgramRun all =
       run_mpi(3, "run " + scene + " --quiet --file-per-rank --contacts '" + path("all.csv") + "'");
   EXPECT_EQ(all.exit_code, 0) << all.err;
-  EXPECT_EQ(names(), (std::vector<std::string>{"all.csv.0", "all.csv.1", "all.csv.2"}));
+  EXPECT_EQ(names(), files_of(3));
   std::vector<std::string> of_all{of_one[0]};
   for (const std::string& name : names()) {
     const std::vector<std::string> lines = lines_of(read_text(path(name)));

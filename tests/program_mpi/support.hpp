@@ -16,13 +16,22 @@ inline bool is_mpich() { return std::string_view(KINESPHERE_MPIRUN).find("mpich"
 
 class MpiProgramTest : public ProgramTest {
  protected:
-  /// Returns the text that starts a program on so many ranks. Those of MPICH wait busily, so it starts no
-  /// more than there are processors.
+  /// Returns how many ranks are started where so many are wanted: those of MPICH wait busily, so no more than
+  /// there are processors.
+  static int started(int ranks) {
+    const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return is_mpich() ? std::min(ranks, processors) : ranks;
+  }
+  /// Returns the text that starts a program on so many ranks.
   static std::string mpirun(int ranks) {
-    if (is_mpich())
-      ranks = std::min(ranks, std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
     return std::string("'") + KINESPHERE_MPIRUN + "' " + KINESPHERE_MPIRUN_RANKS + " " +
-           std::to_string(ranks) + " ";
+           std::to_string(started(ranks)) + " ";
+  }
+  /// Returns the names of the files of so many ranks.
+  static std::vector<std::string> files_of(int ranks) {
+    std::vector<std::string> files;
+    for (int rank = 0; rank < started(ranks); ++rank) files.push_back("all.csv." + std::to_string(rank));
+    return files;
   }
   /// `before` is shell text that precedes mpirun.
   ProgramRun run_mpi(int ranks, const std::string& arguments, const std::string& before = "") const {
