@@ -20,13 +20,12 @@ namespace {
 
 /// Ranks have ghosts so far around the safe regions of their own bodies at first, in widths of these. More of
 /// them allow longer slabs.
-constexpr double first_margin = 2.0, least_margin = 0.5;
+constexpr double first_margin = 3.0, least_margin = 0.5;
 /// In a slab so much is to happen to each body, which makes what a slab costs beside worth it.
-constexpr double wanted_work = 4.0;
+constexpr double wanted_work = 12.0;
 /// A slab that failed is tried again with this part of its duration, and with so many times the ghosts
-/// around; one that did not lets the next one have less of them, and be so much longer than what last
-/// succeeded after a failure.
-constexpr double shorter = 0.7, wider = 1.25, narrower = 0.97, longer = 1.05;
+/// around; one that did not lets the next one have less of them.
+constexpr double shorter = 0.5, wider = 1.25, narrower = 0.97;
 /// A single rank stops after about so many events, which have to be kept until then.
 constexpr std::size_t most_events = 1 << 16;
 
@@ -135,11 +134,7 @@ Result<bool> DistributedWorld::RankEngine::run_slab(double until, const Response
     ++tries_;
     const double least = just_after(first);
     Slab slab{.begin = time_, .stop = std::clamp(first + duration, least, std::max(latest, least))};
-    if (const double rest = facts_.spot_checks.next() - time_; rest > 0.0) {
-      // Slabs are about equally long until then. A short one costs as much as others.
-      const double parts = std::ceil(rest / (slab.stop - time_));
-      slab.stop = parts > 1.0 ? std::max(time_ + rest / parts, least) : facts_.spot_checks.next();
-    }
+    if (facts_.spot_checks.next() > time_) slab.stop = std::min(slab.stop, facts_.spot_checks.next());
     slab.is_least = !(slab.stop > least);
     const auto outcome = try_slab(slab, until, halo, respond);
     if (!outcome) return outcome.error();
@@ -147,13 +142,11 @@ Result<bool> DistributedWorld::RankEngine::run_slab(double until, const Response
       ++slabs_;
       margin_ = std::max(margin_ * narrower, least_margin);
       const double wanted = (time_ - first) * wanted_work / std::max(outcome->work, 0.125 * wanted_work);
-      duration_ = std::min(std::clamp(wanted, 0.5 * duration_, 2.0 * duration_), longest_);
-      longest_ *= longer;
+      duration_ = std::clamp(wanted, 0.5 * duration_, 2.0 * duration_);
       return !(time_ < until) && outcome->stop > until;
     }
     latest = std::min(latest, outcome->failed_at);
     duration *= shorter;
-    longest_ = duration;
     margin_ *= wider;
     halo = {wider * halo.width, wider * halo.margin};
   }

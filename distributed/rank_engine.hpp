@@ -101,7 +101,6 @@ class DistributedWorld::RankEngine {
   std::unique_ptr<WorldState> arriving_;
   std::vector<std::uint32_t> arriving_in_motion_;
   double duration_ = 0.0;            ///< of the next slab (time); 0 until one has been chosen
-  double longest_ = infinity;        ///< of slabs that are likely to succeed (time)
   double margin_;                    ///< of ghosts around own bodies (widths of safe regions)
   std::deque<OrderedEvent> events_;  ///< events to be reported
   EventHash hash_;                   ///< hash of all committed events
