@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 
+#include "base/ascii_text.hpp"
 #include "base/help_text.hpp"
 #include "base/output_file.hpp"
 #include "base/output_paths.hpp"
@@ -14,10 +15,10 @@
 #include "base/validators.hpp"
 #include "formats/streams/input_options.hpp"
 #include "watch/nats/nats_address.hpp"
-#include "watch/tcp_source.hpp"
-#include "watch/udp_source.hpp"
-#include "watch/watch_report.hpp"
-#include "watch/watch_run.hpp"
+#include "watch/output/watch_report.hpp"
+#include "watch/source/tcp_source.hpp"
+#include "watch/source/udp_source.hpp"
+#include "watch/watch_loop.hpp"
 
 namespace kinesphere::program {
 CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
@@ -250,39 +251,42 @@ int watch(const WatchOptions& options) {
   check_outputs(outputs, inputs);
   std::optional<OutputFile> summary;
   if (!options.summary.empty()) summary.emplace(options.summary);
-  WatchRun watch(options);
+  WatchLoop watch(options);
+  const WatchView& view = watch.view();
   const auto started = std::chrono::steady_clock::now();
   const auto conclude = [&] {
     watch.close();
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    const std::string_view format = watch.format_name();
-    if (!options.quiet) write_message(watch_summary_text(watch.watcher(), format, seconds));
+    const std::vector<Warning> warnings = watch.warnings();
+    const WatchEnd end{
+        .format = watch.format_name(),
+        .warnings = warnings,
+        .real_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count()};
+    if (!options.quiet) write_message(watch_summary_text(view, end));
     if (!summary) return;
-    summary->write(watch_summary_json(watch.watcher(), format, seconds));
+    summary->write(watch_summary_json(view, end));
     summary->commit();
   };
   try {
     watch.run();
   } catch (const ProgramError&) {
     // An error that stops the watch at its first report leaves no summary.
-    if (watch.watcher().monitor_counters().reports > 0 || watch.watcher().counts().malformed > 0) conclude();
+    if (view.counters().reports > 0 || view.counts.malformed > 0) conclude();
     throw;
   }
   conclude();
-  const WatchCounts& counts = watch.watcher().counts();
-  const std::uint64_t taken = watch.watcher().monitor_counters().reports;
-  if (counts.stale > taken && taken > 0 && watch.is_file())
+  const std::uint64_t taken = view.counters().reports;
+  if (view.counts.stale > taken && taken > 0 && watch.is_file())
     throw ProgramError(fmt::format(
         "{}: expected rows in the order of their times, but {} of {} reports are older than others "
         "before them by more than --forget, and were not taken: sort them first; tracks reads "
         "rows in any order",
-        watch.watcher().settings().source, counts.stale, counts.stale + taken));
+        view.settings.source, view.counts.stale, view.counts.stale + taken));
   if (taken > 0) return exit_fine;
-  if (const std::string reasons = reasons_text(watch.watcher()); !reasons.empty())
-    throw ProgramError(
-        fmt::format("{}: expected reports of format {} that can be used, but there are none: {}{}",
-                    watch.watcher().settings().source, watch.format_name(), reasons,
-                    counts.first_malformed.empty() ? "" : "; " + counts.first_malformed.front().reason));
+  if (const std::string reasons = reasons_text(view); !reasons.empty())
+    throw ProgramError(fmt::format(
+        "{}: expected reports of format {} that can be used, but there are none: {}{}", view.settings.source,
+        watch.format_name(), reasons,
+        view.counts.first_malformed.empty() ? "" : "; " + view.counts.first_malformed.front().reason));
   return exit_fine;
 }
 

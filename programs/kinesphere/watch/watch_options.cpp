@@ -8,9 +8,9 @@
 
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
-#include "watch/class_rules.hpp"
+#include "geography/local_frame.hpp"
 #include "watch/format_defaults.hpp"
-#include "watch/local_frame.hpp"
+#include "watch/tracks/class_rules.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -177,6 +177,7 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.hold = positive_time(options.hold, "--hold", 60.0);
   settings.confirm = positive_time(options.confirm, "--confirm", 0.0);
   settings.ids = Identities(options.ids);
+  settings.own_as_given = options.own;
   settings.own = settings.ids.name_of(options.own).value_or(options.own);
   if (!options.only.empty()) {
     const auto names = [&](std::string_view kind) {

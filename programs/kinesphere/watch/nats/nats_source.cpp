@@ -212,10 +212,9 @@ class NatsStreamSource final : public ReportSource {
   }
 
   /// Returns a number that identifies the stream.
-  std::uint32_t check() const {
-    const auto created = static_cast<std::uint64_t>(created_);
+  std::uint64_t check() const {
     // 0 stands for no stream.
-    return static_cast<std::uint32_t>(created ^ created >> 32) | 1;
+    return static_cast<std::uint64_t>(created_) | 1;
   }
 
   void drop() {
