@@ -34,21 +34,21 @@ void WatchPipeline::go_on() {
 }
 
 void WatchPipeline::deliver(const SourceReport& report) {
-  auto arrival = tracks_.recognise(report, view_.counters().reports == 0);
-  if (!arrival) return;
+  WatchedTracks::Arrival arrival{.report = report};
+  if (!tracks_.recognise(arrival)) return tracks_.refuse_without_velocity(view_.counters().reports == 0);
   if (!pairs_.monitor()) {
     tracks_.begin_map(report);
     pairs_.begin(clock_.now());
   }
-  const bool is_first = arrival->known == nullptr;
-  if (!tracks_.place(*arrival, !is_first || pairs_.has_room())) return;
+  const bool is_first = arrival.known == nullptr;
+  if (!tracks_.place(arrival, !is_first || pairs_.has_room())) return;
   std::string refusal;
-  const PairMonitor::Taken taken = pairs_.take(*arrival, refusal);
+  const PairMonitor::Taken taken = pairs_.take(arrival, refusal);
   if (taken == PairMonitor::Taken::refused) refuse(fmt::format("{}: {}", report.id, refusal));
   if (taken != PairMonitor::Taken::alone) return;
-  if (tracks_.remember(*arrival)) pairs_.release_later(arrival->id);
-  pairs_.compare(*arrival, is_first);
-  desk_.enter_area(arrival->id);
+  if (tracks_.remember(arrival)) pairs_.release_later(arrival.id);
+  pairs_.compare(arrival, is_first);
+  desk_.enter_area(arrival.id);
   pairs_.release_due();
 }
 

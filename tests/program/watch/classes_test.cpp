@@ -50,7 +50,7 @@ struct ClassWatch {
     // Nothing confirms the time of a few reports.
     if (!pipeline.view().pairs.monitor()) pipeline.finish();
     const NamedTrack* const track = pipeline.view().tracks.names().find(track_id_of(id));
-    return track == nullptr ? "none" : pipeline.view().tracks.classes()[track->motion_class].name;
+    return track == nullptr ? "none" : pipeline.view().tracks.classes()[track->declared.motion_class].name;
   }
   /// Returns the times that a pair has turned undecided.
   std::uint64_t undecided() const { return pipeline.view().counts.turns.at(0).undecided; }
@@ -508,7 +508,7 @@ TEST(TrackClasses, KeepTheGuaranteeWhereShipsAnchorAndLeave) {
     if (std::fmod(time, 2.0) != 0.0 || pipeline.view().tracks.names().size() < ships.size()) continue;
     for (std::size_t a = 0; a < ships.size(); ++a) {
       const NamedTrack* const track = pipeline.view().tracks.names().find(track_id_of(ships[a].id));
-      at_rest += track->motion_class != 0 ? 1 : 0;
+      at_rest += track->declared.motion_class != 0 ? 1 : 0;
       for (std::size_t b = a + 1; b < ships.size(); ++b) {
         const Verdict verdict = pipeline.view()
                                     .pairs.monitor()

@@ -219,11 +219,11 @@ void PairMonitor::report_group(const TrackGroups::Cell& group, const WatchedTrac
   group_tracks_[id] = group;
   NamedTrack* const known = tracks_.names().find(id);
   NamedTrack& named = known != nullptr ? *known : tracks_.names().add(id, name);
-  named = arrival.declared;
-  named.motion_class = 0;
-  named.text = name;
-  named.stamp = arrival.report.stamp;
-  named.position = arrival.report.position;
+  named = {.text = name,
+           .stamp = arrival.report.stamp,
+           .position = arrival.report.position,
+           .declared = arrival.declared};
+  named.declared.motion_class = 0;
   named.rest.is_at_rest = tracks_.has_rest();
 }
 

@@ -16,11 +16,12 @@ std::string declarations_of(const NamedTrack& track) {
     if (declaration.empty()) return;
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", what, declaration);
   };
-  add("position", track.position_by);
+  const Declared& by = track.declared;
+  add("position", by.position_by);
   if (track.extent > 0.0) add("extent", fmt::format("{:.4g}", track.extent));
-  add("height", track.height_by);
-  add("velocity", track.velocity_by);
-  add("climb", track.climb_by);
+  add("height", by.height_by);
+  add("velocity", by.velocity_by);
+  add("climb", by.climb_by);
   return text;
 }
 
@@ -96,7 +97,8 @@ class JsonAlerts final : public AlertDesk::Next {
     if (one == nullptr || other == nullptr) return;
     JsonObject rests_on;
     rests_on.text("first", declarations_of(*one)).text("second", declarations_of(*other));
-    rests_on.text("both", view_.tracks.classes().promise(one->motion_class, other->motion_class));
+    rests_on.text("both",
+                  view_.tracks.classes().promise(one->declared.motion_class, other->declared.motion_class));
     alert.add("rests_on", rests_on.whole());
   }
 
@@ -104,7 +106,8 @@ class JsonAlerts final : public AlertDesk::Next {
     alert.add("track", view_.json_id(event.first));
     if (event.kind == MonitorEventKind::dropped) add_reason(alert, left_for);
     const NamedTrack* const track = view_.track(event.first);
-    const std::string promise = track != nullptr ? view_.tracks.classes().promise(track->motion_class) : "";
+    const std::string promise =
+        track != nullptr ? view_.tracks.classes().promise(track->declared.motion_class) : "";
     if (event.kind == MonitorEventKind::contradiction) {
       alert.number("position_excess", event.position_excess);
       alert.number("velocity_excess", event.velocity_excess);

@@ -153,7 +153,7 @@ class TextAlerts final : public AlertDesk::Next {
 
   bool lacks_height(TrackId id) const {
     const NamedTrack* const track = view_.track(id);
-    return track != nullptr && track->height_by == unknown_height;
+    return track != nullptr && track->declared.height_by == unknown_height;
   }
 
   /// Returns ", now 0.44 NM" with the limits of that distance, if these say something else than it does.

@@ -106,18 +106,18 @@ std::uint64_t of_unusable(const Facts& facts) {
 /// True if there was never a second track.
 bool is_one_track(const Facts& facts) {
   const WatchCounts& counts = facts.counts;
-  return facts.is_end && facts.watch.tracks.names().size() == 1 && counts.crowded + counts.groups == 0 &&
+  return facts.watch.tracks.names().size() == 1 && counts.crowded + counts.groups == 0 &&
          counts.events[static_cast<std::size_t>(MonitorEventKind::dropped)] == 0;
 }
 /// True for a file that has one report of each track.
 bool is_one_moment(const Facts& facts) {
-  return facts.is_end && facts.is_recording && facts.monitor.reports > 1 && facts.counts.groups == 0 &&
+  return facts.is_recording && facts.monitor.reports > 1 && facts.counts.groups == 0 &&
          facts.monitor.reports == facts.watch.tracks.names().size();
 }
 /// Pairs that are not told as the stream has ended too early.
 std::uint64_t of_undecided_bodies(const Facts& facts) { return facts.watch.desk.undecided_bodies(); }
 
-/// All that is warned of, in the order in which it is told.
+/// What is warned of with any record, in the order in which it is told.
 const WarningRule rules[] = {
     {"crowd", [](const Facts& facts) { return of_crowded(facts) > 0; }, of_crowded,
      [](const Facts&) -> std::string {
@@ -179,6 +179,10 @@ const WarningRule rules[] = {
        return fmt::format("most reports cannot be used: {} taken, {}", facts.monitor.reports,
                           reasons_text(facts.watch));
      }},
+};
+
+/// What is warned of at the end of the stream alone.
+const WarningRule rules_at_end[] = {
     {"one_track", is_one_track, of_reports,
      [](const Facts&) -> std::string { return "all reports are of one track, so no pair was watched"; }},
     {"one_moment", is_one_moment, of_reports,
@@ -186,7 +190,7 @@ const WarningRule rules[] = {
        return "it has one report of each track, as of one moment: alerts tell who is near then, and what is "
               "predicted from there";
      }},
-    {"undecided_bodies", [](const Facts& facts) { return facts.is_end && of_undecided_bodies(facts) > 0; },
+    {"undecided_bodies", [](const Facts& facts) { return of_undecided_bodies(facts) > 0; },
      of_undecided_bodies,
      [](const Facts& facts) {
        return fmt::format(
@@ -217,6 +221,8 @@ void Warnings::look_at_end(bool has_ended) {
   WatchFacts facts = this->facts();
   facts.is_over = true;
   facts.is_end = has_ended;
+  if (has_ended)
+    for (const WarningRule& rule : rules_at_end) pending_.push_back(&rule);
   look_by(facts);
 }
 
@@ -230,13 +236,16 @@ WatchFacts Warnings::facts() const {
 
 /// Warns by the rules that have not warned yet.
 void Warnings::look_by(const WatchFacts& facts) {
-  std::erase_if(pending_, [&](const WarningRule* rule) {
-    if (!rule->is_so(facts)) return false;
+  bool has_warned = false;
+  for (const WarningRule*& rule : pending_) {
+    if (!rule->is_so(facts)) continue;
     const std::string text = rule->text(facts);
     given_.push_back({rule, {rule->what, watch_.last_time(), text}});
     print(fmt::format("{}: {}", watch_.settings.source, text));
-    return true;
-  });
+    rule = nullptr;
+    has_warned = true;
+  }
+  if (has_warned) std::erase(pending_, nullptr);
 }
 
 void Warnings::add(const std::string& text) {

@@ -165,13 +165,13 @@ std::string text_of_track(const WatchView& watch, TrackId id) {
   const TrackView view = watch.monitor().track(id).value();
   const NamedTrack* const named = watch.track(id);
   const bool has_name = named != nullptr && !named->name.empty();
-  const bool has_class = named != nullptr && named->motion_class != 0;
+  const bool has_class = named != nullptr && named->declared.motion_class != 0;
   return JsonObject()
       .add("id", watch.json_id(id))
       .add("name", has_name ? json_text(named->name) : "null")
       .add("stamp", watch.json_time(view.timestamp))
       .add("stale", view.stale ? "true" : "false")
-      .add("class", has_class ? json_text(watch.tracks.classes()[named->motion_class].name) : "null")
+      .add("class", has_class ? json_text(watch.tracks.classes()[named->declared.motion_class].name) : "null")
       .add("places", list_of(view.places, [&](const auto& place) { return text_of_place(watch, place); }))
       .whole();
 }

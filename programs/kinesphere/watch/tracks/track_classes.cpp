@@ -38,7 +38,7 @@ std::array<std::size_t, 3> TrackClasses::said(const SourceReport& report) const 
 bool TrackClasses::allows(std::size_t index, const SourceReport& report, const NamedTrack* known) const {
   const MotionClass& each = classes_[index];
   if (!report.ground_speed) return !each.is_at_rest;
-  const bool has_it = known != nullptr && known->motion_class == index;
+  const bool has_it = known != nullptr && known->declared.motion_class == index;
   if (*report.ground_speed > (has_it ? each.kept_up_to : each.given_up_to))
     return each.limits.largest_speed.horizontal() >= classes_[0].limits.largest_speed.horizontal();
   if (!each.is_at_rest || has_it || known == nullptr || !known->contradicted_rest) return true;

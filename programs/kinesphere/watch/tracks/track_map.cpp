@@ -122,10 +122,10 @@ MonitorDefinition TrackMap::definition(const TrackClasses& classes, double start
 }
 
 std::optional<TrackReport> TrackMap::place(const SourceReport& report, double timestamp,
-                                           const TrackClasses& classes, NamedTrack& track) const {
+                                           const TrackClasses& classes, Declared& declared) const {
   TrackReport result{.timestamp = timestamp};
-  const MotionLimits& limits = classes[track.motion_class].limits;
-  result.track_class = track.motion_class;
+  const MotionLimits& limits = classes[declared.motion_class].limits;
+  result.track_class = declared.motion_class;
   if (!settings_.own.empty() && report.id == settings_.own) result.track_class += classes.size();
   double velocity_error_of_map = 0.0;
   if (is_geographic_) {
@@ -141,9 +141,9 @@ std::optional<TrackReport> TrackMap::place(const SourceReport& report, double ti
   } else {
     result.state = {report.position, report.velocity.value_or(Vec3{})};
   }
-  result.position_error = position_error(report, track);
+  result.position_error = position_error(report, declared);
   result.timestamp_error = report.stamp_error.value_or(settings_.stamp_error);
-  result.velocity_error = velocity_error(report, limits, velocity_error_of_map, track);
+  result.velocity_error = velocity_error(report, limits, velocity_error_of_map, declared);
   return result;
 }
 
@@ -157,14 +157,14 @@ double TrackMap::needed_bound(const FallbackError& fallback, const char* option)
                                  option, settings_.source));
 }
 
-ErrorBound TrackMap::position_error(const SourceReport& report, NamedTrack& track) const {
-  auto flat = said(report.position_error, settings_.position_error, track.position_by);
+ErrorBound TrackMap::position_error(const SourceReport& report, Declared& declared) const {
+  auto flat = said(report.position_error, settings_.position_error, declared.position_by);
   if (!flat) flat = needed_bound(settings_.position_error, "--position-error");
   *flat += report.extent;
-  auto upright = said(report.height_error, settings_.height_error, track.height_by);
+  auto upright = said(report.height_error, settings_.height_error, declared.height_by);
   if (lacks_height(report)) {
     upright = frame_ ? LocalFrame::largest_height : any_height;
-    track.height_by = unknown_height;
+    declared.height_by = unknown_height;
   }
   return frame_ ? ErrorBound::cylinder(frame_->position_error(*flat), upright.value_or(*flat))
                 : spread_of(*flat, upright);
@@ -172,14 +172,14 @@ ErrorBound TrackMap::position_error(const SourceReport& report, NamedTrack& trac
 
 /// `of_map`: what the map adds to the error.
 ErrorBound TrackMap::velocity_error(const SourceReport& report, const MotionLimits& limits, double of_map,
-                                    NamedTrack& track) const {
+                                    Declared& declared) const {
   if (!report.velocity) return ErrorBound(unbounded);
-  auto turning = said(report.velocity_error, settings_.velocity_error, track.velocity_by);
+  auto turning = said(report.velocity_error, settings_.velocity_error, declared.velocity_by);
   if (!turning) turning = needed_bound(settings_.velocity_error, "--velocity-error");
-  auto climbing = said(report.climb_error, settings_.climb_error, track.climb_by);
+  auto climbing = said(report.climb_error, settings_.climb_error, declared.climb_by);
   if (!report.has_climb) {
     climbing = dimensions_ == 2 ? 0.0 : limits.largest_speed.vertical();
-    track.climb_by = "largest speed";
+    declared.climb_by = "largest speed";
   }
   if (!std::isfinite(*turning)) return ErrorBound(unbounded);
   *turning += report.velocity_spread;

@@ -38,10 +38,10 @@ class TrackMap {
     return dimensions_ == 2 && !settings_.dimensions && report.has_height;
   }
   /// Returns a report as the monitor takes it, at this timestamp; nothing for one beyond the radius of the
-  /// map. `track` has the class of the report, and gets the sources of its bounds. Throws ProgramError naming
-  /// an option that has to give a bound.
+  /// map. `declared` has the class of the report, and gets the sources of its bounds. Throws ProgramError
+  /// naming an option that has to give a bound.
   std::optional<TrackReport> place(const SourceReport& report, double timestamp, const TrackClasses& classes,
-                                   NamedTrack& track) const;
+                                   Declared& declared) const;
   bool has_areas() const { return !areas_.empty(); }
   /// True if a track may be in one of the areas of --area.
   bool is_in_area(const TrackView& track) const;
@@ -61,9 +61,9 @@ class TrackMap {
   void begin_areas();
   double velocity_age_of(const SourceReport& report) const;
   double needed_bound(const FallbackError& fallback, const char* option) const;
-  ErrorBound position_error(const SourceReport& report, NamedTrack& track) const;
+  ErrorBound position_error(const SourceReport& report, Declared& declared) const;
   ErrorBound velocity_error(const SourceReport& report, const MotionLimits& limits, double of_map,
-                            NamedTrack& track) const;
+                            Declared& declared) const;
 
   const WatchSettings& settings_;
   bool is_geographic_ = false;

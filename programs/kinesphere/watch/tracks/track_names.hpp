@@ -22,8 +22,21 @@ namespace kinesphere::program {
 /// pairs; TrackNames detects it.
 TrackId track_id_of(std::string_view text);
 
-/// NamedTrack::height_by of a track whose height may be any.
+/// Declared::height_by of a track whose height may be any.
 inline constexpr std::string_view unknown_height = "unknown";
+
+/// What is declared of a track with a report.
+struct Declared {
+  std::size_t motion_class = 0;  ///< an index of TrackClasses
+  /// Sources of the bounds.
+  std::string_view position_by{}, height_by{}, velocity_by{}, climb_by{};
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [motion_class, position_by, height_by, velocity_by, climb_by] = self;
+    archive(motion_class);
+    archive_texts(archive, position_by, height_by, velocity_by, climb_by);
+  }
+};
 
 /// State of a track that the monitor does not hold.
 struct NamedTrack {
@@ -32,22 +45,13 @@ struct NamedTrack {
   FileTime stamp{};     ///< timestamp of its latest report
   Vec3 position{};      ///< in the stream's own words
   double extent = 0.0;  ///< of its latest report
-  std::size_t motion_class = 0;  ///< an index of TrackClasses
+  Declared declared{};  ///< with its latest report
   /// Timestamp of the report that has changed the class; empty: none has.
   std::optional<FileTime> class_since{};
   /// Timestamp of the latest report that said that the craft is at rest, with a speed that contradicts it.
   std::optional<FileTime> contradicted_rest{};
-  /// Sources of the declared bounds of the latest report.
-  std::string_view position_by, height_by, velocity_by, climb_by;
   Sighting seen{};  ///< kept by SameBodies; without reports where it is not used, and of a group
   Rest rest{};
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [text, name, stamp, position, extent, motion_class, class_since, contradicted_rest, position_by,
-           height_by, velocity_by, climb_by, seen, rest] = self;
-    archive(text, name, stamp, position, extent, motion_class, class_since, contradicted_rest, seen, rest);
-    archive_texts(archive, position_by, height_by, velocity_by, climb_by);
-  }
 };
 
 class TrackNames {

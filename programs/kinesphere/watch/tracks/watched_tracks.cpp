@@ -40,25 +40,28 @@ void WatchedTracks::begin_map(const SourceReport& report) {
 
 void WatchedTracks::go_on() {
   names_.for_each([&](const NamedTrack& track) {
-    if (track.motion_class >= classes_.size())
+    if (track.declared.motion_class >= classes_.size())
       throw WrongInput("expected a class of each track in the snapshot");
   });
   if (has_map_) map_.go_on(classes_);
 }
 
-std::optional<WatchedTracks::Arrival> WatchedTracks::recognise(const SourceReport& report, bool is_first) {
-  Arrival arrival{.report = report, .id = track_id_of(report.id)};
+bool WatchedTracks::recognise(Arrival& arrival) {
+  const SourceReport& report = arrival.report;
+  arrival.id = track_id_of(report.id);
   arrival.known = names_.find(arrival.id);
   arrival.declared.motion_class = classes_.choose(report, arrival.known);
-  const MotionLimits& limits = classes_[arrival.declared.motion_class].limits;
-  if (knows_velocity(report) || std::isfinite(limits.largest_speed.total())) return arrival;
+  return knows_velocity(report) ||
+         std::isfinite(classes_[arrival.declared.motion_class].limits.largest_speed.total());
+}
+
+void WatchedTracks::refuse_without_velocity(bool is_first) {
   if (is_first)
     throw ProgramError(
         fmt::format("--largest-speed: expected it, because {} has positions without velocities: an "
                     "acceleration alone does not say how far a track goes",
                     settings_.source));
   ++counts_.no_velocity;
-  return std::nullopt;
 }
 
 bool WatchedTracks::place(Arrival& arrival, bool has_room) {
@@ -102,7 +105,7 @@ bool WatchedTracks::is_superseded(const Arrival& arrival) const {
   const NamedTrack& known = *arrival.known;
   const FileTime& stamp = arrival.report.stamp;
   if (known.class_since && is_earlier(stamp, *known.class_since)) return true;
-  return arrival.declared.motion_class != known.motion_class && is_earlier(stamp, known.stamp);
+  return arrival.declared.motion_class != known.declared.motion_class && is_earlier(stamp, known.stamp);
 }
 
 bool WatchedTracks::remember(Arrival& arrival) {
@@ -118,17 +121,13 @@ bool WatchedTracks::remember(Arrival& arrival) {
   NamedTrack& track = *arrival.known;
   if (const std::string_view name = shown_name(report.name); !name.empty()) track.name = name;
   if (!is_first && is_earlier(report.stamp, track.stamp)) return false;
-  const NamedTrack& declared = arrival.declared;
   track.stamp = report.stamp;
   track.position = report.position;
   track.extent = report.extent;
-  if (!is_first && track.motion_class != declared.motion_class) track.class_since = report.stamp;
-  track.motion_class = declared.motion_class;
+  if (!is_first && track.declared.motion_class != arrival.declared.motion_class)
+    track.class_since = report.stamp;
+  track.declared = arrival.declared;
   if (classes_.contradicts_rest(report)) track.contradicted_rest = report.stamp;
-  track.position_by = declared.position_by;
-  track.height_by = declared.height_by;
-  track.velocity_by = declared.velocity_by;
-  track.climb_by = declared.climb_by;
   return note_rest(arrival, is_first);
 }
 

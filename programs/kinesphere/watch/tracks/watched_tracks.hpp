@@ -35,12 +35,14 @@ class WatchedTracks {
     const SourceReport& report;
     TrackId id = 0;
     NamedTrack* known = nullptr;  ///< null: it is the first one of its track
-    NamedTrack declared{};        ///< has the class of the report, and the sources of its bounds
-    TrackReport on_map{};         ///< as the monitor takes it
+    Declared declared{};
+    TrackReport on_map{};  ///< as the monitor takes it
   };
-  /// Returns a report with its track and class; nothing if it does not say how far its track goes. Throws
-  /// ProgramError for such a report if none has been taken before (`is_first`).
-  std::optional<Arrival> recognise(const SourceReport& report, bool is_first);
+  /// Fills in the track and class of a report. Returns false if it does not say how far its track goes.
+  bool recognise(Arrival& arrival);
+  /// Counts a report that does not say how far its track goes. Throws ProgramError if none has been taken
+  /// before (`is_first`).
+  void refuse_without_velocity(bool is_first);
   /// Fills in the report on the map. Returns false for a report that cannot be used, or that adds a track
   /// where there is no room. Precondition: the map has begun.
   bool place(Arrival& arrival, bool has_room);
