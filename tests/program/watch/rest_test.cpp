@@ -2,6 +2,8 @@
 // truth of who met whom is known.
 #include "watch/tracks/rest.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
