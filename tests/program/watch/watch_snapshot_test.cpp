@@ -341,7 +341,8 @@ TEST_F(WatchRestart, SaysAtOnceThatItCannotKeepASnapshot) {
 
 /// Files with a correct checksum that hold no state of a watch.
 TEST_F(WatchRestart, RefusesSoundFilesOfNonsense) {
-  const std::string stream = write("s.jsonl", stream_of(json_line, 2000));
+  const std::string before = stream_of(changing_line, 3000), all = stream_of(changing_line, 3300);
+  const std::string stream = write("s.jsonl", before);
   const std::string arguments =
       "watch " + stream + crossing_promises + crossing_errors + " --snapshot '" + path("state") + "'";
   ASSERT_EQ(run(arguments).exit_code, 0);
@@ -363,6 +364,7 @@ TEST_F(WatchRestart, RefusesSoundFilesOfNonsense) {
   other_memory.reader.memory = {std::byte{0xff}};
   expect_refused(other_memory);
   // Another number changes the state, or is refused; it is never the end of the program.
+  write("s.jsonl", all);
   for (int k = 0; k < 60; ++k) {
     WatchSnapshot wrong = sound;
     const auto place = static_cast<std::size_t>(random.uniform(0.0, size));

@@ -31,6 +31,14 @@ void PairMonitor::restore(const std::vector<std::byte>& monitor) {
   groups_.emplace(cutting());
 }
 
+void PairMonitor::check() const {
+  bool is_sound = tracks_.names().size() == monitor_->size();
+  tracks_.names().for_each(
+      [&](const NamedTrack& track) { is_sound = is_sound && monitor_->contains(track_id_of(track.text)); });
+  for (const auto& [track, group] : group_tracks_) is_sound = is_sound && groups_->is_group(group);
+  if (!is_sound) throw WrongInput("expected the tracks of the monitor in the snapshot");
+}
+
 void PairMonitor::begin_bodies() {
   // Who asks for each change of a verdict gets those of all ids.
   if (settings_.has_distinct_ids || settings_.kinds.undecided) return;

@@ -88,10 +88,13 @@ class PairMonitor {
     if constexpr (reads) self.restore(monitor);
     archive(*self.groups_, self.group_tracks_, self.next_forgetting_);
     if (self.bodies_) archive(*self.bodies_);
+    if constexpr (reads) self.check();
   }
 
  private:
   void restore(const std::vector<std::byte>& monitor);
+  /// Throws WrongInput unless all tracks that have been read are those of the monitor.
+  void check() const;
   void begin_bodies();
   TrackGroups::Cutting cutting() const;
   void advance(double until);

@@ -249,15 +249,25 @@ void SameBodies::forget_before(double time) {
   std::erase_if(given_up_, [time](const auto& given_up) { return given_up.second < time; });
 }
 
+/// Returns false unless the track knows of its links as the tracks at their other ends do.
+bool SameBodies::is_linked_well(TrackId track) const {
+  const Sighting& seen = *find(track);
+  const TrackId former_id = seen.link.former;
+  const Sighting *const former = find(former_id), *const later = find(seen.later);
+  if (seen.reports == 0) return former_id == 0 && seen.later == 0;
+  const bool has_former = former_id == 0 || (former != nullptr && former->later == track);
+  const bool has_later = seen.later == 0 || (later != nullptr && later->link.former == track);
+  return has_former && has_later && std::isfinite(seen.link.due) == (former_id != 0);
+}
+
 void SameBodies::go_on() {
   std::vector<TrackId> tracks;
   names_.for_each([&](const NamedTrack& named) { tracks.push_back(track_id_of(named.text)); });
   places_.widen(std::max(places_.edge(), 2.0 * (limits_.horizontal + fastest_ * limits_.silence)));
   for (const TrackId track : tracks) {
     Sighting& seen = *find(track);
+    if (!is_linked_well(track)) throw WrongInput("expected links between tracks of the snapshot");
     if (seen.reports == 0) continue;
-    if (seen.link.former != 0 && find(seen.link.former) == nullptr)
-      throw WrongInput("expected links between tracks of the snapshot");
     seen.place = places_.add(track, seen.state, seen.stamp);
     if (std::isfinite(seen.link.due)) due_.insert({seen.link.due, track});
   }

@@ -85,6 +85,7 @@ class SameBodies {
  private:
   /// Finds the places and links of the names.
   void go_on();
+  bool is_linked_well(TrackId track) const;
   Sighting* find(TrackId track);
   const Sighting* find(TrackId track) const;
   void note(TrackId track, Sighting& seen, const TrackReport& report, bool is_first);

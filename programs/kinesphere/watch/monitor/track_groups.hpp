@@ -54,6 +54,10 @@ class TrackGroups {
   /// Returns the number of tracks that stand.
   std::size_t size() const { return standing_.size(); }
   bool contains(TrackId track) const { return standing_.contains(track); }
+  bool is_group(const Cell& cell) const {
+    const auto place = places_.find(cell);
+    return place != places_.end() && place->second.is_group;
+  }
 
   static void serialize(auto& self, auto& archive) {
     std::map<TrackId, Standing> standing(self.standing_.begin(), self.standing_.end());

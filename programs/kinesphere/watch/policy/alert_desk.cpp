@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/program_error.hpp"
+#include "formats/fields/wrong_input.hpp"
 
 namespace kinesphere::program {
 
@@ -18,6 +19,16 @@ AlertDesk::AlertDesk(const WatchSettings& settings, WatchCounts& counts, const W
       next_(next),
       policy_(settings.kinds, settings.most_alerts) {
   counts_.turns.resize(settings.separations.size());
+}
+
+void AlertDesk::check() const {
+  const TrackNames& names = tracks_.names();
+  bool is_sound = counts_.turns.size() == settings_.separations.size();
+  policy_.for_each([&](const AlertPolicy::Key& key) {
+    is_sound = is_sound && key.level < settings_.separations.size() && key.first < key.second &&
+               names.find(key.first) != nullptr && names.find(key.second) != nullptr;
+  });
+  if (!is_sound) throw WrongInput("expected encounters of tracks in the snapshot");
 }
 
 void AlertDesk::tell(const MonitorEvent& event, const LeftFor& left_for) {

@@ -56,9 +56,14 @@ class AlertDesk final : public PairMonitor::Next {
   /// body.
   std::size_t undecided_bodies() const;
 
-  static void serialize(auto& self, auto& archive) { archive(self.policy_); }
+  static void serialize(auto& self, auto& archive) {
+    archive(self.policy_);
+    if constexpr (requires { self.policy_.forget(0); }) self.check();
+  }
 
  private:
+  /// Throws WrongInput for encounters that have been read and cannot be.
+  void check() const;
   const Monitor& monitor() const { return *pairs_.monitor(); }
   AlertFate fate_of(MonitorEvent& event);
   std::optional<AlertFate> hold_of(const MonitorEvent& event) const;

@@ -79,6 +79,11 @@ class AlertPolicy {
   /// Returns the encounters of a track, and those that were over while they were held and told before. Cost:
   /// O(log(encounters) + encounters of the track).
   std::vector<Key> encounters_of(TrackId track) const;
+  /// Calls visit(key) for each encounter.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (const auto& [key, encounter] : encounters_) visit(key);
+  }
   /// Precondition: there is this encounter.
   Encounter& encounter(const Key& key) { return encounters_.at(key); }
   /// Ends the encounters of a track without an event. Cost: O(log(encounters)) for each of them.
