@@ -22,11 +22,10 @@ struct WatchCount {
   bool is_reason = false;  ///< for which reports were not taken
 };
 
-std::vector<WatchCount> counts_of(const WatchView& watch) {
+/// Returns the counts of reports.
+std::vector<WatchCount> report_counts(const WatchView& watch) {
   const WatchCounts& counts = watch.counts;
   const MonitorCounters monitor = watch.counters();
-  const auto events = [&](MonitorEventKind kind) { return counts.events[static_cast<std::size_t>(kind)]; };
-  const auto fates = [&](AlertFate fate) { return counts.fates[static_cast<std::size_t>(fate)]; };
   return {
       {"reports", "reports", "taken", monitor.reports},
       {"late", "", "of them late: older than one before of the same track", monitor.late},
@@ -46,6 +45,14 @@ std::vector<WatchCount> counts_of(const WatchView& watch) {
       {"malformed", "", "malformed", counts.malformed, true},
       {"no_height", "", "of those taken without a height: it may be any", counts.no_height},
       {"grouped", "", "of tracks that stand at one place and are watched as a group", counts.grouped},
+  };
+}
+
+/// Returns the counts of alerts and events, and of what became of the events.
+std::vector<WatchCount> event_counts(const WatchCounts& counts) {
+  const auto events = [&](MonitorEventKind kind) { return counts.events[static_cast<std::size_t>(kind)]; };
+  const auto fates = [&](AlertFate fate) { return counts.fates[static_cast<std::size_t>(fate)]; };
+  return {
       {"alerts", "alerts", "", counts.alerts},
       {"groups", "", "groups of tracks that stand at one place", counts.groups},
       {"lost", "", "tracks lost in an encounter", counts.lost},
@@ -74,6 +81,12 @@ std::vector<WatchCount> counts_of(const WatchView& watch) {
       {"handovers", "", "of them as another id goes on", counts.handovers},
       {"dropped_in_crowds", "", "of them as more pairs were open than --most-pairs", counts.dropped},
   };
+}
+
+std::vector<WatchCount> counts_of(const WatchView& watch) {
+  std::vector<WatchCount> all = report_counts(watch);
+  for (const WatchCount& count : event_counts(watch.counts)) all.push_back(count);
+  return all;
 }
 
 std::string without_quotes(std::string text) {
@@ -204,7 +217,7 @@ std::string text_of_request(const WatchView& watch, const ReportRequest& request
 
 std::string reasons_text(const WatchView& watch) {
   std::string text;
-  for (const WatchCount& count : counts_of(watch))
+  for (const WatchCount& count : report_counts(watch))
     if (count.is_reason && count.count > 0)
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count.count), count.note);
   return text;
