@@ -48,6 +48,13 @@ TEST(ReportClock, HoldsTheFirstReportsUntilTheyConfirmEachOther) {
   EXPECT_EQ(watch.clock.age_of(time_of(99)), 3.0);
 }
 
+TEST(ReportClock, BeginsWithoutAWrongClock) {
+  Clock watch;
+  watch.take("a", 100).take("c", 5000).take("b", 101).take("a", 102);
+  EXPECT_EQ(watch.passed, "a@100 b@101 a@102 ");
+  EXPECT_EQ(watch.counts.ahead, 1u);
+}
+
 TEST(ReportClock, PassesAShortStreamAtItsEnd) {
   Clock watch;
   watch.take("a", 100).take("a", 101);
