@@ -32,9 +32,11 @@ std::string read_file(const std::string& path) {
 
 }  // namespace
 
-void write_snapshot(const std::string& path, const WatchSnapshot& snapshot) {
+void write_snapshot(const std::string& path, WatchSnapshot snapshot) {
   ByteWriter content;
   content(snapshot);
+  // A large state is in memory several times as it is.
+  snapshot = {};
   const std::vector<std::byte> bytes = envelope.seal(content.bytes());
   // The incomplete file of a killed run is overwritten.
   OutputFile file(OutputPlace{path, 0});

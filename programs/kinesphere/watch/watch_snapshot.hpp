@@ -23,7 +23,7 @@ struct WatchSnapshot {
 };
 
 /// Replaces the file atomically. Throws ProgramError naming the file.
-void write_snapshot(const std::string& path, const WatchSnapshot& snapshot);
+void write_snapshot(const std::string& path, WatchSnapshot snapshot);
 /// Returns nothing if there is no such file. Throws ProgramError naming a file that is damaged or not a
 /// snapshot.
 std::optional<WatchSnapshot> read_snapshot(const std::string& path);

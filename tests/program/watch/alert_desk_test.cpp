@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/fields/wrong_input.hpp"
 #include "program/watch/stages.hpp"
 #include "watch/watch_pipeline.hpp"
 
@@ -68,6 +69,21 @@ TEST(AlertDesk, TellsOnlyOfItsShare) {
     EXPECT_EQ(watch.shares.size(), lower % 4 == first ? 3u : 0u);
     for (const std::uint64_t share : watch.shares) EXPECT_EQ(share, first);
   }
+}
+
+/// Several watches share the alerts about single tracks, too.
+TEST(AlertDesk, TellsOfEachTrackInOneShare) {
+  int stale = 0;
+  for (std::uint64_t first = 0; first < 4; ++first) {
+    WatchSettings settings = text_settings();
+    settings.kinds.tracks = true;
+    settings.share = {.of = 4, .first = first, .count = 1};
+    Told watch(settings);
+    meet(watch, 0, 5);
+    for (int t = 5; t < 20; ++t) watch.take("far", t, 5000 + t, 1);
+    stale += watch.count("stale          a");
+  }
+  EXPECT_EQ(stale, 1);
 }
 
 TEST(AlertDesk, TellsOfAnAreaFromWhenATrackEntersIt) {
@@ -136,6 +152,24 @@ TEST(AlertDesk, SaysHowManyWereTooMany) {
   EXPECT_GE(watch.count("held back"), 1) << watch.alerts;
   const WatchCounts& counts = watch.pipeline.view().counts;
   EXPECT_GT(counts.fates[static_cast<std::size_t>(AlertFate::too_many)], 0u);
+}
+
+/// A snapshot may be sound, and have encounters of tracks that it does not have.
+TEST(AlertDesk, RefusesEncountersOfNobody) {
+  const WatchSettings settings = text_settings();
+  AlertPolicy policy({}, 10);
+  MonitorEvent event{.kind = MonitorEventKind::predicted, .first = 1, .second = 2};
+  policy.take(event, true);
+  Told watch;
+  meet(watch, 0, 3);
+  const WatchView& view = watch.pipeline.view();
+  WatchCounts counts;
+  const auto alerts = make_text_alerts(view, [](std::uint64_t, std::string_view) {});
+  AlertDesk desk(settings, counts, view.tracks, view.pairs, *alerts);
+  ByteWriter writer;
+  writer(policy);
+  ByteReader reader(writer.bytes());
+  EXPECT_THROW(reader(desk), WrongInput);
 }
 
 }  // namespace
