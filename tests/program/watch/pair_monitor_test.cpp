@@ -150,5 +150,20 @@ TEST(PairMonitor, GoesOnFromASnapshot) {
   EXPECT_NE(whole.told.find("to:b "), std::string::npos) << whole.told;
 }
 
+/// A crowd that was silent for long is no group any more, also where a snapshot was made in between.
+TEST(PairMonitor, KnowsTheGroupsOfASnapshot) {
+  Pairs first, later;
+  for (int t = 0; t < 3; ++t) {
+    first.take("far", t, 5000 + t, 1);
+    for (int k = 0; k < 25; ++k) first.take("c" + std::to_string(k), t, 2.0 + 0.01 * k, 0.0, 2.0);
+  }
+  ASSERT_TRUE(read_back(first.clock, later.clock));
+  ASSERT_TRUE(read_back(first.tracks, later.tracks));
+  ASSERT_TRUE(read_back(first.pairs, later.pairs));
+  for (int t = 3; t < 36; ++t) later.take("far", t, 5000 + t, 1);
+  later.take("c0", 36, 2.0, 0.0, 2.0);
+  EXPECT_TRUE(later.pairs.monitor()->contains(track_id_of("c0"))) << later.told;
+}
+
 }  // namespace
 }  // namespace kinesphere::program::pair_monitor_test
