@@ -15,8 +15,6 @@ class NamedSource final : public ReportSource {
   explicit NamedSource(Nature nature) : nature_(nature) {}
   Outcome next(std::chrono::milliseconds, std::string_view&) override { return Outcome::quiet; }
   std::uint64_t position(std::size_t) const override { return 0; }
-  StreamPlace place(std::size_t) const override { return {}; }
-  std::optional<std::string> identity() const override { return std::nullopt; }
   Nature nature() const override { return nature_; }
   std::string name() const override { return "the stream"; }
 

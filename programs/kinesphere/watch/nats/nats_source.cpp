@@ -65,8 +65,6 @@ class NatsSubjectSource final : public ReportSource {
     return Outcome::quiet;
   }
   std::uint64_t position(std::size_t) const override { return position_; }
-  StreamPlace place(std::size_t) const override { return {name(), position_, 0}; }
-  std::optional<std::string> identity() const override { return std::nullopt; }
   bool has_whole_records() const override { return true; }
   std::string name() const override { return connection_.address().name; }
 

@@ -24,10 +24,11 @@ struct WatchFacts {
 
 struct WarningRule {
   std::string_view what;
-  bool (*is_so)(const WatchFacts& facts);
+  bool (*is_so)(const WatchFacts& facts);  ///< null: it is so once it was so at all
   /// Returns how often it was so.
   std::uint64_t (*times)(const WatchFacts& facts);
-  std::string (*text)(const WatchFacts& facts);
+  std::string_view text;  ///< may have {times} and {reports}; or
+  std::string (*made)(const WatchFacts& facts) = nullptr;
 };
 
 namespace {
@@ -55,6 +56,7 @@ const NamedSeparation* small_separation(const Facts& facts) {
     if (!named.has_unit && named.separation.horizontal < *settings.position_error.bound) return &named;
   return nullptr;
 }
+bool is_small(const Facts& facts) { return small_separation(facts) != nullptr; }
 std::string small_text(const Facts& facts) {
   return fmt::format(
       "{} is in metres, and less than positions may be off ({:.4g} m), so that no two are certainly within "
@@ -62,6 +64,7 @@ std::string small_text(const Facts& facts) {
       small_separation(facts)->name, *facts.watch.settings.position_error.bound);
 }
 
+std::uint64_t of_disorder(const Facts& facts) { return std::max(facts.monitor.late, facts.counts.behind); }
 bool are_most_late(const Facts& facts) {
   return facts.monitor.late >= least && 2 * facts.monitor.late > facts.monitor.reports;
 }
@@ -70,6 +73,7 @@ bool are_many_behind(const Facts& facts) {
   return facts.counts.behind >= (facts.is_end ? fewest_at_end : least) &&
          5 * facts.counts.behind > facts.monitor.reports;
 }
+bool is_disorder(const Facts& facts) { return are_most_late(facts) || are_many_behind(facts); }
 std::string disorder_text(const Facts& facts) {
   if (are_most_late(facts))
     return "most reports are older than one before of their track, so that alerts may be missing: rows have "
@@ -99,8 +103,21 @@ bool lacks_own(const Facts& facts) {
          (facts.is_over || facts.monitor.reports >= many);
 }
 
+std::string own_text(const Facts& facts) {
+  return fmt::format("--own {}: no report of this track was taken, so no pair is watched",
+                     facts.watch.settings.own_as_given);
+}
+
 std::uint64_t of_unusable(const Facts& facts) {
   return facts.counts.unusable() + (facts.monitor.reports == 0 ? facts.counts.meant_to_be_left_out() : 0);
+}
+
+bool are_most_unusable(const Facts& facts) {
+  return of_unusable(facts) >= least && of_unusable(facts) > facts.monitor.reports;
+}
+std::string unusable_text(const Facts& facts) {
+  return fmt::format("most reports cannot be used: {} taken, {}", facts.monitor.reports,
+                     reasons_text(facts.watch));
 }
 
 /// True if there was never a second track.
@@ -119,86 +136,50 @@ std::uint64_t of_undecided_bodies(const Facts& facts) { return facts.watch.desk.
 
 /// What is warned of with any record, in the order in which it is told.
 const WarningRule rules[] = {
-    {"crowd", [](const Facts& facts) { return of_crowded(facts) > 0; }, of_crowded,
-     [](const Facts&) -> std::string {
-       return "there are more tracks than --most-tracks or more open pairs than --most-pairs: some tracks "
-              "are not watched";
-     }},
-    {"ignored_heights", [](const Facts& facts) { return of_ignored_heights(facts) > 0; }, of_ignored_heights,
-     [](const Facts&) -> std::string {
-       return "heights do not count, because the first report had none: say --dimensions 3, or 2";
-     }},
-    {"no_height", [](const Facts& facts) { return of_no_height(facts) > 0; }, of_no_height,
-     [](const Facts&) -> std::string {
-       return "some reports have no height: it counts as any, which leaves their pairs undecided";
-     }},
+    {"crowd", nullptr, of_crowded,
+     "there are more tracks than --most-tracks or more open pairs than --most-pairs: some tracks "
+     "are not watched"},
+    {"ignored_heights", nullptr, of_ignored_heights,
+     "heights do not count, because the first report had none: say --dimensions 3, or 2"},
+    {"no_height", nullptr, of_no_height,
+     "some reports have no height: it counts as any, which leaves their pairs undecided"},
     {"too_old", [](const Facts& facts) { return facts.too_old >= least; }, of_too_old,
-     [](const Facts&) {
-       return fmt::format(
-           "the last {} reports are older than all others by more than --forget, and not taken: a clock was "
-           "set back, or had been ahead, where a new start goes on with them; or the rows of a file are not "
-           "in the order of their times, and have to be sorted",
-           least);
-     }},
-    {"small_separation", [](const Facts& facts) { return small_separation(facts) != nullptr; }, once,
-     small_text},
-    {"disorder", [](const Facts& facts) { return are_most_late(facts) || are_many_behind(facts); },
-     [](const Facts& facts) { return std::max(facts.monitor.late, facts.counts.behind); }, disorder_text},
+     "the last 100 reports are older than all others by more than --forget, and not taken: a clock was set "
+     "back, or had been ahead, where a new start goes on with them; or the rows of a file are not in the "
+     "order of their times, and have to be sorted"},
+    {"small_separation", is_small, once, {}, small_text},
+    {"disorder", is_disorder, of_disorder, {}, disorder_text},
     {"contradictions", are_many_contradictory, of_contradictions,
-     [](const Facts& facts) {
-       return fmt::format(
-           "{} of {} reports contradict those before, so that alerts may be wrong or missing: the errors "
-           "(--position-error, --stamp-error) or limits (--acceleration, --largest-speed) are too small, "
-           "units are wrong, or two tracks have one id",
-           facts.monitor.contradictions, facts.monitor.reports);
-     }},
+     "{times} of {reports} reports contradict those before, so that alerts may be wrong or missing: the "
+     "errors (--position-error, --stamp-error) or limits (--acceleration, --largest-speed) are too small, "
+     "units are wrong, or two tracks have one id"},
     {"no_velocity", lack_velocities,
      [](const Facts& facts) { return facts.monitor.reports - facts.counts.with_velocity; },
-     [](const Facts&) -> std::string {
-       return "reports have no velocities (vx and vy, or speed and course), without which encounters are not "
-              "predicted before they are near";
-     }},
+     "reports have no velocities (vx and vy, or speed and course), without which encounters are not "
+     "predicted before they are near"},
     {"ahead", [](const Facts& facts) { return of_ahead(facts) >= least; }, of_ahead,
-     [](const Facts& facts) {
-       return fmt::format(
-           "{} reports are stamped ahead of all others by more than --leap, and not taken: the clock of "
-           "their tracks is wrong",
-           of_ahead(facts));
-     }},
-    {"no_own", lacks_own, once,
-     [](const Facts& facts) {
-       return fmt::format("--own {}: no report of this track was taken, so no pair is watched",
-                          facts.watch.settings.own_as_given);
-     }},
-    {"unusable",
-     [](const Facts& facts) {
-       return of_unusable(facts) >= least && of_unusable(facts) > facts.monitor.reports;
-     },
-     of_unusable,
-     [](const Facts& facts) {
-       return fmt::format("most reports cannot be used: {} taken, {}", facts.monitor.reports,
-                          reasons_text(facts.watch));
-     }},
+     "{times} reports are stamped ahead of all others by more than --leap, and not taken: the clock of their "
+     "tracks is wrong"},
+    {"no_own", lacks_own, once, {}, own_text},
+    {"unusable", are_most_unusable, of_unusable, {}, unusable_text},
 };
 
 /// What is warned of at the end of the stream alone.
 const WarningRule rules_at_end[] = {
-    {"one_track", is_one_track, of_reports,
-     [](const Facts&) -> std::string { return "all reports are of one track, so no pair was watched"; }},
+    {"one_track", is_one_track, of_reports, "all reports are of one track, so no pair was watched"},
     {"one_moment", is_one_moment, of_reports,
-     [](const Facts&) -> std::string {
-       return "it has one report of each track, as of one moment: alerts tell who is near then, and what is "
-              "predicted from there";
-     }},
-    {"undecided_bodies", [](const Facts& facts) { return of_undecided_bodies(facts) > 0; },
-     of_undecided_bodies,
-     [](const Facts& facts) {
-       return fmt::format(
-           "{} tracks that have just begun may be others under another id, and are not told as near to "
-           "these: it ends before reports show it (--distinct-ids tells all)",
-           of_undecided_bodies(facts));
-     }},
+     "it has one report of each track, as of one moment: alerts tell who is near then, and what is "
+     "predicted from there"},
+    {"undecided_bodies", nullptr, of_undecided_bodies,
+     "{times} tracks that have just begun may be others under another id, and are not told as near to these: "
+     "it ends before reports show it (--distinct-ids tells all)"},
 };
+
+std::string text_of(const WarningRule& rule, const Facts& facts) {
+  if (rule.made != nullptr) return rule.made(facts);
+  return fmt::format(fmt::runtime(rule.text), fmt::arg("times", rule.times(facts)),
+                     fmt::arg("reports", facts.monitor.reports));
+}
 
 }  // namespace
 
@@ -238,8 +219,8 @@ WatchFacts Warnings::facts() const {
 void Warnings::look_by(const WatchFacts& facts) {
   bool has_warned = false;
   for (const WarningRule*& rule : pending_) {
-    if (!rule->is_so(facts)) continue;
-    const std::string text = rule->text(facts);
+    if (rule->is_so != nullptr ? !rule->is_so(facts) : rule->times(facts) == 0) continue;
+    const std::string text = text_of(*rule, facts);
     given_.push_back({rule, {rule->what, watch_.last_time(), text}});
     print(fmt::format("{}: {}", watch_.settings.source, text));
     rule = nullptr;

@@ -36,10 +36,10 @@ class ReportSource {
   /// the last one.
   virtual std::uint64_t position(std::size_t without) const = 0;
   /// Returns the place from which a later run continues, less `without` bytes.
-  virtual StreamPlace place(std::size_t without) const = 0;
+  virtual StreamPlace place(std::size_t without) const { return {name(), position(without), 0}; }
   /// Returns a name that all readers of this stream from its begin share, at any time; nothing if the stream
   /// cannot be read again, so that a later run continues with new text only.
-  virtual std::optional<std::string> identity() const = 0;
+  virtual std::optional<std::string> identity() const { return std::nullopt; }
   /// True if no record continues in the next text.
   virtual bool has_whole_records() const { return false; }
   /// True if the source itself gives the arrival times of texts, so that all readers have one clock.

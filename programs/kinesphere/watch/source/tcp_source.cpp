@@ -70,8 +70,6 @@ class TcpSource final : public ReportSource {
     return Outcome::text;
   }
   std::uint64_t position(std::size_t without) const override { return handed_over_ - without; }
-  StreamPlace place(std::size_t without) const override { return {name(), position(without), 0}; }
-  std::optional<std::string> identity() const override { return std::nullopt; }
   std::string name() const override {
     const bool has_brackets = address_.host.find(':') != std::string::npos;
     return fmt::format("tcp://{}{}{}:{}", has_brackets ? "[" : "", address_.host, has_brackets ? "]" : "",

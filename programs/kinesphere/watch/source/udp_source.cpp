@@ -71,8 +71,6 @@ class UdpSource final : public ReportSource {
     return Outcome::text;
   }
   std::uint64_t position(std::size_t) const override { return datagrams_; }
-  StreamPlace place(std::size_t) const override { return {name(), datagrams_, 0}; }
-  std::optional<std::string> identity() const override { return std::nullopt; }
   bool has_whole_records() const override { return true; }
   std::string name() const override { return fmt::format("udp://127.0.0.1:{}", port_); }
 
