@@ -32,7 +32,7 @@ class WatchLoop {
   void close() { server_.reset(); }
 
   const WatchView& view() const { return pipeline_.view(); }
-  std::vector<Warning> warnings() const { return warnings_.all(); }
+  std::vector<Warning> warnings() { return warnings_.all(); }
   bool is_file() const { return reader_.is_file(); }
   /// Returns "unknown" before any text has arrived.
   std::string_view format_name() const { return reader_.format() ? reader_.format_name() : "unknown"; }

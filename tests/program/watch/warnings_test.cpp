@@ -33,7 +33,7 @@ class Warned {
     printed += testing::internal::GetCapturedStderr();
   }
   /// Returns "what:times " of all warnings.
-  std::string table() const {
+  std::string table() {
     std::string text;
     for (const Warning& warning : warnings.all()) text += fmt::format("{}:{} ", warning.what, warning.times);
     return text;

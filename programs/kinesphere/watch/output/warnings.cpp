@@ -193,8 +193,6 @@ void Warnings::look() {
   for (; complaints_ < lines.size(); ++complaints_)
     print(
         fmt::format("{}:{}: {}", watch_.settings.source, lines[complaints_].line, lines[complaints_].reason));
-  const std::uint64_t taken = watch_.counters().reports;
-  if (std::exchange(taken_before_, taken) != taken) too_old_before_ = watch_.counts.stale;
   look_by(facts());
 }
 
@@ -207,10 +205,12 @@ void Warnings::look_at_end(bool has_ended) {
   look_by(facts);
 }
 
-WatchFacts Warnings::facts() const {
+WatchFacts Warnings::facts() {
+  const MonitorCounters monitor = watch_.counters();
+  if (std::exchange(taken_before_, monitor.reports) != monitor.reports) too_old_before_ = watch_.counts.stale;
   return {.watch = watch_,
           .counts = watch_.counts,
-          .monitor = watch_.counters(),
+          .monitor = monitor,
           .too_old = watch_.counts.stale - too_old_before_,
           .is_recording = is_recording_};
 }
@@ -238,7 +238,7 @@ void Warnings::print(std::string_view text) const {
   if (!is_quiet_) print_message("kinesphere: warning: {}\n", text);
 }
 
-std::vector<Warning> Warnings::all() const {
+std::vector<Warning> Warnings::all() {
   const WatchFacts now = facts();
   std::vector<Warning> all;
   for (const auto& [rule, warning] : given_) {

@@ -38,14 +38,14 @@ class Warnings {
   /// Warns of what the stream's format has found. `text` names the stream.
   void add(const std::string& text);
   /// Returns the table.
-  std::vector<Warning> all() const;
+  std::vector<Warning> all();
 
  private:
   struct Given {
     const WarningRule* rule;  ///< null: by the format
     Warning warning;
   };
-  WatchFacts facts() const;
+  WatchFacts facts();
   void look_by(const WatchFacts& facts);
   void print(std::string_view text) const;
 

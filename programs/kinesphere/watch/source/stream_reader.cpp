@@ -109,8 +109,9 @@ std::optional<Record> StreamReader::record() {
     if (record) record->is_whole = record->is_whole && record->text.ends_with('}');
     return record;
   }
-  const auto record = cutter_.next();
-  return record || !source_->has_whole_records() ? record : cutter_.rest();
+  auto record = cutter_.next();
+  if (!record && source_->has_whole_records()) record = cutter_.rest();
+  return record;
 }
 
 void StreamReader::read(const Record& record, ReportSink& sink) {
