@@ -33,6 +33,7 @@ std::optional<WatchSnapshot> snapshot_of(const WatchOptions& options) {
   check_options(options.snapshot, snapshot->options, given_options(options));
   const std::string& said = options.choices.hints.format;
   const std::string& then = snapshot->reader.format;
+  if (!format_named(then)) refuse_snapshot(options.snapshot);
   if (!said.empty() && format_named(said) != format_named(then))
     throw ProgramError(fmt::format("--format: expected it as it was for the snapshot {}, {}, but got {}",
                                    options.snapshot, then, said));

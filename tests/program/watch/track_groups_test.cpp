@@ -63,7 +63,7 @@ TEST(TrackGroups, RandomTracksAndSnapshots) {
       ByteWriter before, after;
       before(groups);
       after(restored);
-      ASSERT_EQ(after.bytes(), before.bytes()) << "seed " << seed << ", step " << step;
+      ASSERT_EQ(after.take(), before.take()) << "seed " << seed << ", step " << step;
       groups = restored;
     }
     const auto id = static_cast<TrackId>(random.uniform(0.0, 90.0));
