@@ -41,7 +41,7 @@ struct Encounter {
   bool is_told() const { return predicted_told || within_told; }
   /// When one of the two became stale: the closest approach that was expected then.
   struct Loss {
-    double closest_time = 0.0, closest_distance = 0.0;
+    double closest_time, closest_distance;
   };
   std::optional<Loss> loss{};
   bool silence_told = false;  ///< an alert has told that one of the two became stale

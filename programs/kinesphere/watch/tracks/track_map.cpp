@@ -110,7 +110,7 @@ MonitorDefinition TrackMap::definition(const TrackClasses& classes, double start
   const std::size_t base = definition.classes.size();
   // The own track has classes of its own, whose pairs with others are the only ones.
   if (!settings_.own.empty())
-    for (std::size_t k = 0; k < base; ++k) definition.classes.push_back(TrackClass(definition.classes[k]));
+    for (std::size_t k = 0; k < base; ++k) definition.classes.emplace_back(definition.classes[k]);
   for (std::size_t first = 0; first < base; ++first)
     for (std::size_t second = settings_.own.empty() ? first : base; second < definition.classes.size();
          ++second) {
