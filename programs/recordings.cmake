@@ -3,7 +3,9 @@ find_package(simdjson REQUIRED)
 
 file(GLOB sources CONFIGURE_DEPENDS kinesphere/recording_commands.cpp kinesphere/formats/*/*.cpp
      kinesphere/geography/*.cpp kinesphere/serving/*.cpp kinesphere/tracks/*.cpp kinesphere/view/*.cpp
-     kinesphere/watch/*.cpp kinesphere/watch/nats/nats_address.cpp)
+     kinesphere/watch/*.cpp kinesphere/watch/source/*.cpp kinesphere/watch/clock/*.cpp
+     kinesphere/watch/tracks/*.cpp kinesphere/watch/monitor/*.cpp kinesphere/watch/policy/*.cpp
+     kinesphere/watch/output/*.cpp kinesphere/watch/nats/nats_address.cpp)
 add_library(kinesphere_recording_commands STATIC ${sources})
 target_link_libraries(kinesphere_recording_commands PUBLIC kinesphere_scene_commands simdjson::simdjson)
 # Longitudes and latitudes, refused with a word about it where it is not installed.

@@ -67,6 +67,7 @@ if grep -rnE '#include "distributed/' src toolkit simulation c programs/kinesphe
 fi
 includes_only_earlier programs/kinesphere '' base formats serving scenes tracks view watch
 includes_only_earlier programs/kinesphere/formats formats/ fields nmea tables recordings streams
+includes_only_earlier programs/kinesphere/watch watch/ source clock tracks monitor policy output
 beyond_input=$(IFS='|' && echo "${engine[*]:2}")
 if grep -rnE "#include \"($beyond_input|$of_toolkit|distributed)/" c; then
   echo "lint: of src, c/ may include number/ and input/ alone" >&2

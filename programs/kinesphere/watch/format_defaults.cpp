@@ -1,7 +1,7 @@
 // What is declared of the tracks and reports of a format, where neither the stream nor an option says it.
 #include "watch/format_defaults.hpp"
 
-#include "watch/motion_classes.hpp"
+#include "watch/tracks/motion_classes.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -42,6 +42,7 @@ struct WatchOptions {
   std::optional<int> serve;
   bool text = false;
   bool quiet = false;
+  const CLI::App* command = nullptr;  ///< which has them as they were given
 };
 
 /// `options` must live until the command line has been parsed.

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "archive/archive.hpp"
 #include "kinesphere/monitor/monitor.hpp"
-#include "watch/alert_policy.hpp"
+#include "watch/policy/alert_policy.hpp"
 
 namespace kinesphere::program {
 
@@ -34,8 +35,9 @@ struct WatchCounts {
   std::vector<MalformedLine> first_malformed;  ///< ten at most
 
   std::uint64_t no_height =
-      0;                      ///< reports that were taken, but have no height in a space of three dimensions
-  std::uint64_t dropped = 0;  ///< tracks, because there were more open pairs than may be
+      0;  ///< reports that were taken, but have no height in a space of three dimensions
+  std::uint64_t ignored_heights = 0;  ///< reports that were taken as if they had no height (TrackMap)
+  std::uint64_t dropped = 0;          ///< tracks, because there were more open pairs than may be
   std::uint64_t alerts = 0;
   std::uint64_t with_velocity = 0;        ///< reports taken that have a velocity
   std::uint64_t behind = 0;               ///< reports taken that are seconds older than others before them
@@ -52,6 +54,17 @@ struct WatchCounts {
     std::uint64_t apart = 0, undecided = 0, within = 0;
   };
   std::vector<Turns> turns;
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [repeated, stale, ahead, outside, no_position, on_ground, no_bound, no_velocity, filtered,
+           superseded, crowded, malformed, first_malformed, no_height, ignored_heights, dropped, alerts,
+           with_velocity, behind, of_own, lost, handovers, one_bodies, groups, grouped, events, fates,
+           turns] = self;
+    archive(repeated, stale, ahead, outside, no_position, on_ground, no_bound, no_velocity, filtered,
+            superseded, crowded, malformed, first_malformed, no_height, ignored_heights, dropped, alerts,
+            with_velocity, behind, of_own, lost, handovers, one_bodies, groups, grouped, events, fates,
+            turns);
+  }
 
   /// Events that are not written.
   std::uint64_t held_back() const {

@@ -3,14 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
-#include "watch/class_rules.hpp"
+#include "geography/local_frame.hpp"
 #include "watch/format_defaults.hpp"
-#include "watch/local_frame.hpp"
+#include "watch/tracks/class_rules.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -125,24 +127,26 @@ double positive_time(const std::string& given, std::string_view option, double o
   throw ProgramError(fmt::format("{}: expected a time > 0, but got '{}'", option, given));
 }
 
-}  // namespace
+double time_or(const std::string& given, std::string_view option, double otherwise) {
+  return given.empty() ? otherwise : parse_measure(given, Measure::time, option);
+}
 
-WatchSettings settings_of(const WatchOptions& options, StreamFormat format, const std::string& source) {
-  const FormatDefaults defaults = defaults_of(format);
-  WatchSettings settings;
-  settings.source = source;
-  settings.format = name_of(format);
-  const double look_ahead = options.look_ahead.empty()
-                                ? defaults.look_ahead
-                                : parse_measure(options.look_ahead, Measure::time, "--look-ahead");
+/// Sets what is watched for.
+void set_separations(const WatchOptions& options, const FormatDefaults& defaults, WatchSettings& settings) {
+  const double look_ahead = time_or(options.look_ahead, "--look-ahead", defaults.look_ahead);
   if (look_ahead < 0.0)
     throw ProgramError(fmt::format("--look-ahead: expected a time >= 0, but got '{}'", options.look_ahead));
   for (const std::string& text : options.separations) {
     NamedSeparation& named = settings.separations.emplace_back(parse_separation(text));
     if (!named.has_time) named.separation.look_ahead = look_ahead;
   }
-  settings.dimensions = options.dimensions;
-  if (!settings.dimensions && defaults.geographic) settings.dimensions = defaults.dimensions;
+  settings.hold = positive_time(options.hold, "--hold", 60.0);
+  settings.confirm = positive_time(options.confirm, "--confirm", 0.0);
+}
+
+/// Sets what tracks promise.
+void set_promises(const WatchOptions& options, StreamFormat format, const FormatDefaults& defaults,
+                  WatchSettings& settings) {
   const auto promised = [&](const std::string& given, Measure measure, std::string_view option,
                             const std::optional<ErrorBound>& otherwise) {
     return given.empty() ? otherwise.value_or(ErrorBound(no_promise)) : parse_spread(given, measure, option);
@@ -157,6 +161,14 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.classes = TrackClasses(limits);
   settings.class_rules = parse_class_rules(options.classes, settings.classes);
   settings.has_automatic_classes = !options.no_classes;
+  settings.silence = positive_time(options.silence, "--silence", defaults.silence);
+  settings.forget = positive_time(options.forget, "--forget", defaults.forget);
+  settings.has_steady_rate = defaults.has_steady_rate;
+}
+
+/// Sets how far off reports are where the stream does not say it.
+void set_all_errors(const WatchOptions& options, StreamFormat format, const FormatDefaults& defaults,
+                    WatchSettings& settings) {
   const auto by_default = [&](const std::optional<double>& bound) {
     return FallbackError{bound, bound ? fmt::format("{:.4g} (default of {})", *bound, name_of(format)) : ""};
   };
@@ -168,16 +180,20 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
              settings.height_error);
   set_errors(options.velocity_error, Measure::speed, "--velocity-error", settings.velocity_error,
              settings.climb_error);
-  settings.stamp_error = options.stamp_error.empty()
-                             ? defaults.stamp_error
-                             : parse_measure(options.stamp_error, Measure::time, "--stamp-error");
+  settings.stamp_error = time_or(options.stamp_error, "--stamp-error", defaults.stamp_error);
   settings.velocity_age = defaults.velocity_age;
-  settings.silence = positive_time(options.silence, "--silence", defaults.silence);
-  settings.forget = positive_time(options.forget, "--forget", defaults.forget);
-  settings.hold = positive_time(options.hold, "--hold", 60.0);
-  settings.confirm = positive_time(options.confirm, "--confirm", 0.0);
+}
+
+/// Sets which ids are one body, and which alerts are written.
+void set_alerts(const WatchOptions& options, const FormatDefaults& defaults, WatchSettings& settings) {
   settings.ids = Identities(options.ids);
+  settings.own_as_given = options.own;
   settings.own = settings.ids.name_of(options.own).value_or(options.own);
+  settings.has_distinct_ids = options.distinct_ids;
+  settings.rest_speed =
+      options.rest.empty() ? defaults.rest_speed : parse_measure(options.rest, Measure::speed, "--rest");
+  if (settings.rest_speed < 0.0)
+    throw ProgramError(fmt::format("--rest: expected a speed >= 0, but got '{}'", options.rest));
   if (!options.only.empty()) {
     const auto names = [&](std::string_view kind) {
       return std::any_of(options.only.begin(), options.only.end(),
@@ -189,16 +205,16 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
                       .undecided = names("undecided"),
                       .tracks = names("tracks")};
   }
-  settings.has_distinct_ids = options.distinct_ids;
-  settings.rest_speed =
-      options.rest.empty() ? defaults.rest_speed : parse_measure(options.rest, Measure::speed, "--rest");
-  if (settings.rest_speed < 0.0)
-    throw ProgramError(fmt::format("--rest: expected a speed >= 0, but got '{}'", options.rest));
-  settings.has_steady_rate = defaults.has_steady_rate;
   settings.text = options.text;
   for (const std::string& text : options.areas) settings.areas.push_back(parse_area(text));
   if (options.most_alerts) settings.most_alerts = *options.most_alerts;
-  find_measured_option(options, settings);
+  settings.share = parse_share(options.share);
+}
+
+/// Sets the map, the clock and the limits of what is taken.
+void set_reading(const WatchOptions& options, const FormatDefaults& defaults, WatchSettings& settings) {
+  settings.dimensions = options.dimensions;
+  if (!settings.dimensions && defaults.geographic) settings.dimensions = defaults.dimensions;
   settings.window = defaults.window;
   // A track that is not yet stale may be the only one that reports.
   settings.leap = positive_time(options.leap, "--leap", std::max(settings.leap, settings.silence));
@@ -211,61 +227,38 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   if (options.most_malformed) settings.most_malformed = *options.most_malformed;
   if (options.most_tracks) settings.most_tracks = *options.most_tracks;
   if (options.most_pairs) settings.most_pairs = *options.most_pairs;
-  settings.share = parse_share(options.share);
+}
+
+}  // namespace
+
+WatchSettings settings_of(const WatchOptions& options, StreamFormat format, const std::string& source) {
+  const FormatDefaults defaults = defaults_of(format);
+  WatchSettings settings;
+  settings.source = source;
+  settings.format = name_of(format);
+  set_separations(options, defaults, settings);
+  set_promises(options, format, defaults, settings);
+  set_all_errors(options, format, defaults, settings);
+  set_alerts(options, defaults, settings);
+  set_reading(options, defaults, settings);
+  find_measured_option(options, settings);
   return settings;
 }
 
 GivenOptions given_options(const WatchOptions& options) {
-  const FormatChoices& choices = options.choices;
-  GivenOptions given;
   // The name of a format alone changes nothing: the snapshot has it.
-  const std::string& said = choices.hints.format;
+  const std::string& said = options.choices.hints.format;
   const auto format = format_named(said);
   const bool is_preset = format && is_table(*format) && name_of(*format) != said;
-  for (const std::string& separation : options.separations) given.emplace_back("--separation", separation);
-  given.insert(
-      given.end(),
-      {{"--columns", choices.hints.columns},
-       {"--format", is_preset ? said : ""},
-       {"--where", choices.hints.where},
-       {"--positions", choices.hints.positions},
-       {"--frame-rate", choices.hints.frame_rate ? fmt::to_string(*choices.hints.frame_rate) : ""},
-       {"--time-unit", choices.hints.time_unit},
-       {"--unit", choices.hints.unit},
-       {"--dates", fmt::to_string(static_cast<int>(choices.hints.dates))},
-       {"--dimensions", options.dimensions ? fmt::to_string(*options.dimensions) : ""},
-       {"--acceleration", options.acceleration},
-       {"--largest-speed", options.largest_speed},
-       {"--class", fmt::format("{}", fmt::join(options.classes, "\n"))},
-       {"--no-classes", options.no_classes ? "true" : ""},
-       {"--containment", fmt::to_string(choices.containment)},
-       {"--position-error", options.position_error},
-       {"--velocity-error", options.velocity_error},
-       {"--stamp-error", options.stamp_error},
-       {"--position-bound",
-        choices.position_bound == FormatChoices::PositionBound::accuracy ? "nac_p" : "rc"},
-       {"--altitude", choices.altitude == FormatChoices::Altitude::geometric ? "geometric" : "barometric"},
-       {"--silence", options.silence},
-       {"--forget", options.forget},
-       {"--look-ahead", options.look_ahead},
-       {"--confirm", options.confirm},
-       {"--hold", options.hold},
-       {"--own", options.own},
-       {"--same", fmt::format("{}", fmt::join(options.ids.same, "\n"))},
-       {"--ignore", fmt::format("{}", fmt::join(options.ids.ignore, "\n"))},
-       {"--distinct-ids", options.distinct_ids ? "true" : ""},
-       {"--rest", options.rest},
-       {"--only", fmt::format("{}", fmt::join(options.only, ","))},
-       {"--area", fmt::format("{}", fmt::join(options.areas, " "))},
-       {"--text", options.text ? "yes" : ""},
-       {"--most-alerts", options.most_alerts ? fmt::to_string(*options.most_alerts) : ""},
-       {"--origin", options.origin},
-       {"--radius", options.radius},
-       {"--clock", options.clock},
-       {"--leap", options.leap},
-       {"--most-tracks", options.most_tracks ? fmt::to_string(*options.most_tracks) : ""},
-       {"--most-pairs", options.most_pairs ? fmt::to_string(*options.most_pairs) : ""},
-       {"--share", options.share}});
+  constexpr std::string_view others[] = {"--help",           "--most-malformed", "--snapshot", "--summary",
+                                         "--snapshot-every", "--alerts",         "--serve",    "--quiet"};
+  GivenOptions given;
+  for (const CLI::Option* const option : options.command->get_options()) {
+    const std::string name = option->get_name();
+    const bool counts = name.starts_with("--") && std::ranges::find(others, name) == std::end(others) &&
+                        (name != "--format" || is_preset);
+    if (counts) given.emplace_back(name, fmt::format("{}", fmt::join(option->results(), " ")));
+  }
   return given;
 }
 

@@ -1,6 +1,7 @@
 // The settings of a watch.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -10,7 +11,7 @@
 #include "formats/fields/separations.hpp"
 #include "formats/ids/identities.hpp"
 #include "kinesphere/monitor/monitor.hpp"
-#include "watch/track_classes.hpp"
+#include "watch/tracks/track_classes.hpp"
 
 namespace kinesphere::program {
 
@@ -37,7 +38,8 @@ struct WatchedArea {
 
 struct WatchSettings {
   std::vector<NamedSeparation> separations;
-  std::string own;  ///< id of the track whose pairs are watched; empty: all pairs are
+  std::string own;           ///< id of the track whose pairs are watched; empty: all pairs are
+  std::string own_as_given;  ///< as --own says it, before --same
   Identities ids;
   AlertKinds kinds;
   bool has_distinct_ids = false;   ///< each id is a body of its own
@@ -78,6 +80,17 @@ struct WatchSettings {
   std::size_t most_pairs = 1'000'000;  ///< maximum pairs that are not certainly apart
   std::string source;                  ///< the stream's name, for messages
   std::string format;                  ///< of the stream, for its state
+
+  /// Returns a length so small that two tracks which stay so near each other are within every separation in
+  /// the plane, with room for errors.
+  double small_length() const {
+    constexpr double part = 0.25;
+    double length = std::numeric_limits<double>::infinity();
+    for (const NamedSeparation& named : separations)
+      length = std::min(length, part * named.separation.horizontal);
+    return length;
+  }
+  TrackId own_track() const { return own.empty() ? 0 : track_id_of(own); }
 };
 
 }  // namespace kinesphere::program

@@ -3,81 +3,44 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
-#include <ostream>
-#include <streambuf>
+#include <span>
 
+#include "archive/archive.hpp"
+#include "archive/envelope.hpp"
 #include "base/output_file.hpp"
 #include "base/program_error.hpp"
-#include "watch/checksum.hpp"
 
 namespace kinesphere::program {
 namespace {
 
-/// The file begins with this title, the length of the rest and its checksum, each as at least eight
-/// hexadecimal digits; then comes CBOR. Increase the number when the fields change.
-constexpr std::string_view snapshot_title = "kinesphere watch snapshot 13\n";
+/// Raise the version when the fields change, or when a watch would continue differently from equal fields.
+constexpr Envelope envelope{
+    {'K', 'i', 'n', 'W', 'a', 't', '\r', '\n'}, 14, "watch", "watch", "snapshot", ErrorCode::bad_snapshot};
+/// Snapshots of 1.0 begin with this text.
+constexpr std::string_view earlier_title = "kinesphere watch snapshot ";
 
-std::string heading(std::uint64_t size, std::uint32_t check) {
-  return fmt::format("{}{:016x} {:08x}\n", snapshot_title, size, check);
-}
-std::string heading(std::string_view content) { return heading(content.size(), checksum(content)); }
-
-/// A stream buffer that passes its output to a function.
-class CallingBuffer final : public std::streambuf {
- public:
-  using Take = std::function<void(std::string_view)>;
-  explicit CallingBuffer(Take take) : take_(std::move(take)) {}
-
- protected:
-  std::streamsize xsputn(const char* text, std::streamsize size) override {
-    take_({text, static_cast<std::size_t>(size)});
-    return size;
-  }
-  int_type overflow(int_type character) override {
-    const char written = traits_type::to_char_type(character);
-    take_({&written, 1});
-    return character;
-  }
-
- private:
-  Take take_;
-};
-
-/// Writes CBOR piece by piece, which saves a copy of the whole state.
-void write_cbor(const nlohmann::json& json, CallingBuffer::Take take) {
-  CallingBuffer buffer(std::move(take));
-  std::ostream stream(&buffer);
-  nlohmann::json::to_cbor(json, stream);
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file.is_open() || file.bad()) throw ProgramError(fmt::format("{}: cannot read", path));
+  return text;
 }
 
 }  // namespace
 
 void write_snapshot(const std::string& path, WatchSnapshot snapshot) {
-  auto& [options, format, place, line, reader, watcher, alerts, alerts_place] = snapshot;
-  const nlohmann::json json{{"options", options},
-                            {"format", format},
-                            {"stream", place.stream},
-                            {"position", place.position},
-                            {"check", place.check},
-                            {"line", {line.number, line.is_passed_over}},
-                            {"reader", std::move(reader)},
-                            {"watcher", std::move(watcher)},
-                            {"alerts", alerts},
-                            {"alerts_place", {alerts_place.bytes, alerts_place.check}}};
-  std::uint64_t size = 0;
-  std::uint32_t check = 0;
-  write_cbor(json, [&](std::string_view piece) {
-    size += piece.size();
-    check = checksum(piece, check);
-  });
+  ByteWriter content;
+  content(snapshot);
+  // A large state is in memory several times as it is.
+  snapshot = {};
+  const std::vector<std::byte> bytes = envelope.seal(content.bytes());
   // The incomplete file of a killed run is overwritten.
   OutputFile file(OutputPlace{path, 0});
-  file.write(heading(size, check));
-  write_cbor(json, [&](std::string_view piece) { file.write(piece); });
+  file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   file.sync();
   file.commit();
 }
@@ -89,27 +52,22 @@ std::optional<WatchSnapshot> read_snapshot(const std::string& path) {
   // Some things that are not regular files have no end.
   if (!error && !std::filesystem::is_regular_file(status))
     throw ProgramError(fmt::format("--snapshot: expected a file, but {} is something else", path));
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad()) throw ProgramError(fmt::format("{}: cannot read", path));
-  const std::string_view content = std::string_view(text).substr(std::min(heading("").size(), text.size()));
-  if (!text.starts_with(snapshot_title))
+  const std::string text = read_file(path);
+  if (text.starts_with(earlier_title))
     throw ProgramError(fmt::format("{}: expected a snapshot of this version of kinesphere watch", path));
-  if (!text.starts_with(heading(content)))
-    throw ProgramError(fmt::format("{}: expected a snapshot of kinesphere watch, but it is damaged", path));
-  try {
-    auto json = nlohmann::json::from_cbor(content);
-    return WatchSnapshot{.options = json.at("options"),
-                         .format = json.at("format"),
-                         .place = {json.at("stream"), json.at("position"), json.at("check")},
-                         .line = {json.at("line").at(0), json.at("line").at(1)},
-                         .reader = json.at("reader"),
-                         .watcher = std::move(json.at("watcher")),
-                         .alerts = json.at("alerts"),
-                         .alerts_place = {json.at("alerts_place").at(0), json.at("alerts_place").at(1)}};
-  } catch (const nlohmann::json::exception&) {
-    throw ProgramError(fmt::format("{}: expected a snapshot of kinesphere watch, but it is none", path));
-  }
+  const auto content = envelope.open(std::as_bytes(std::span(text)));
+  if (!content)
+    throw ProgramError(fmt::format("{}: expected a snapshot of this version of kinesphere watch: {}", path,
+                                   message_of(content.error())));
+  ByteReader reader(*content);
+  WatchSnapshot snapshot;
+  reader(snapshot);
+  if (reader.failed() || reader.remaining() != 0) refuse_snapshot(path);
+  return snapshot;
+}
+
+void refuse_snapshot(const std::string& path) {
+  throw ProgramError(fmt::format("{}: expected a snapshot of kinesphere watch, but it is none", path));
 }
 
 void check_options(const std::string& path, const GivenOptions& then, const GivenOptions& now) {
@@ -119,8 +77,7 @@ void check_options(const std::string& path, const GivenOptions& then, const Give
       throw ProgramError(
           fmt::format("{}: expected it as it was for the snapshot {}, where it was {}, but it is {}",
                       now[k].first, path, text(then[k].second), text(now[k].second)));
-  if (then.size() != now.size())
-    throw ProgramError(fmt::format("{}: expected a snapshot of kinesphere watch, but it is none", path));
+  if (then.size() != now.size()) refuse_snapshot(path);
 }
 
 }  // namespace kinesphere::program

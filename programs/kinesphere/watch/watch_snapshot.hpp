@@ -1,16 +1,13 @@
 // The state of a watch in a file, from which a later run continues.
 #pragma once
 
-#include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "formats/tables/record_cutter.hpp"
-#include "watch/alert_output.hpp"
-#include "watch/report_source.hpp"
+#include "watch/output/alert_output.hpp"
+#include "watch/source/stream_reader.hpp"
 
 namespace kinesphere::program {
 
@@ -19,12 +16,9 @@ using GivenOptions = std::vector<std::pair<std::string, std::string>>;
 
 struct WatchSnapshot {
   GivenOptions options;
-  std::string format;
-  StreamPlace place;
-  RecordCutter::Line line;  ///< at that place
-  nlohmann::json reader;    ///< state of the format
-  nlohmann::json watcher;
-  std::string alerts;  ///< destination: the absolute path of a file, or an address
+  ReaderState reader;
+  std::vector<std::byte> pipeline;  ///< WatchPipeline::save()
+  std::string alerts;               ///< destination: the absolute path of a file, or an address
   AlertsPlace alerts_place{};
 };
 
@@ -35,5 +29,7 @@ void write_snapshot(const std::string& path, WatchSnapshot snapshot);
 std::optional<WatchSnapshot> read_snapshot(const std::string& path);
 /// Throws ProgramError naming an option with another value than before.
 void check_options(const std::string& path, const GivenOptions& then, const GivenOptions& now);
+/// Says of a file that it is a snapshot, but of nothing that can be.
+[[noreturn]] void refuse_snapshot(const std::string& path);
 
 }  // namespace kinesphere::program

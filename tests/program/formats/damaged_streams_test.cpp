@@ -9,7 +9,7 @@
 #include "formats/streams/report_format.hpp"
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
-#include "watch/watcher.hpp"
+#include "watch/watch_pipeline.hpp"
 
 namespace kinesphere::program::damaged_streams_test {
 namespace {
@@ -72,19 +72,19 @@ std::string damaged(std::string text, Random& random) {
 /// Counts the reports that it receives.
 class CountingSink final : public ReportSink {
  public:
-  explicit CountingSink(Watcher& watcher) : watcher_(watcher) {}
+  explicit CountingSink(WatchPipeline& pipeline) : pipeline_(pipeline) {}
   void take(const SourceReport& report) override {
     ++reports;
-    watcher_.take(report);
+    pipeline_.take(report);
   }
-  void time_is(const FileTime& arrival, TimeKind kind) override { watcher_.time_is(arrival, kind); }
-  void pass_over(Passed reason) override { watcher_.pass_over(reason); }
-  void refuse(std::size_t line, const std::string& reason) override { watcher_.refuse(line, reason); }
+  void time_is(const FileTime& arrival, TimeKind kind) override { pipeline_.time_is(arrival, kind); }
+  void pass_over(Passed reason) override { pipeline_.pass_over(reason); }
+  void refuse(std::size_t line, const std::string& reason) override { pipeline_.refuse(line, reason); }
 
   int reports = 0;
 
  private:
-  Watcher& watcher_;
+  WatchPipeline& pipeline_;
 };
 
 class DamagedStream : public testing::TestWithParam<StreamFormat> {};
@@ -101,18 +101,18 @@ TEST_P(DamagedStream, IsReadAsFarAsItGoes) {
       .silence = 15.0,
       .forget = 60.0,
       .source = "test"};
-  Watcher watcher(settings, [](std::uint64_t, std::string_view) {});
-  CountingSink sink(watcher);
+  WatchPipeline pipeline(settings, [](std::uint64_t, std::string_view) {});
+  CountingSink sink(pipeline);
   const auto reader = make_format(format, {});
   RecordCutter cutter(records_of(format));
   const auto read = [&](const Record& record) {
-    watcher.begin_record(record.line);
+    pipeline.begin_record(record.line);
     try {
       reader->read(record, sink);
     } catch (const WrongInput& error) {
-      watcher.refuse(error.what());
+      pipeline.refuse(error.what());
     }
-    watcher.end_record();
+    pipeline.end_record();
   };
   const auto feed = [&](const std::string& text) {
     cutter.feed(text);
@@ -132,13 +132,13 @@ TEST_P(DamagedStream, IsReadAsFarAsItGoes) {
     if (sink.reports > before) ++read_whole;
   }
   if (const auto last = cutter.rest()) read(*last);
-  EXPECT_GT(watcher.counts().malformed, 500u);
-  EXPECT_LE(watcher.counts().first_malformed.size(), 10u);
-  for (const MalformedLine& line : watcher.counts().first_malformed)
+  EXPECT_GT(pipeline.view().counts.malformed, 500u);
+  EXPECT_LE(pipeline.view().counts.first_malformed.size(), 10u);
+  for (const MalformedLine& line : pipeline.view().counts.first_malformed)
     EXPECT_EQ(line.reason.find('\n'), std::string::npos) << line.reason;
   // All lines except those that continue a damaged line without an end.
   EXPECT_GT(read_whole, 0.75 * whole);
-  EXPECT_GT(watcher.monitor_counters().reports, 0u);
+  EXPECT_GT(pipeline.view().counters().reports, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEachFormat, DamagedStream,

@@ -1,4 +1,6 @@
 // Alerts of `kinesphere watch --text` as people read them: distances now, times, columns.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -11,10 +11,10 @@
 #include "kinesphere/random.hpp"
 #include "program/formats/ais/ais_encoder.hpp"
 #include "program/support.hpp"
-#include "watch/class_rules.hpp"
+#include "watch/tracks/class_rules.hpp"
 #include "watch/watch.hpp"
 #include "watch/watch_options.hpp"
-#include "watch/watcher.hpp"
+#include "watch/watch_pipeline.hpp"
 
 namespace kinesphere::program::classes_test {
 namespace {
@@ -24,11 +24,11 @@ using Json = nlohmann::json;
 /// A watch of the lines of a stream, as the program makes it from its options.
 struct ClassWatch {
   explicit ClassWatch(StreamFormat format, WatchOptions options = {})
-      : watcher(settings_of(with_separation(options), format, "test"),
-                [this](std::uint64_t, std::string_view line) { alerts.push_back(Json::parse(line)); }) {
+      : pipeline(settings_of(with_separation(options), format, "test"),
+                 [this](std::uint64_t, std::string_view line) { alerts.push_back(Json::parse(line)); }) {
     const bool is_table = format == StreamFormat::csv || format == StreamFormat::ais;
-    reader =
-        make_ruled_format(make_format(format, options.choices), watcher.settings().class_rules, is_table);
+    reader = make_ruled_format(make_format(format, options.choices), pipeline.view().settings.class_rules,
+                               is_table);
   }
   static WatchOptions with_separation(WatchOptions options) {
     if (options.separations.empty()) options.separations = {"sphere:500"};
@@ -39,24 +39,24 @@ struct ClassWatch {
   ClassWatch& read(const std::string& text) {
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
-      watcher.begin_record(++line_);
-      reader->read({.text = line, .line = line_}, watcher);
-      watcher.end_record();
+      pipeline.begin_record(++line_);
+      reader->read({.text = line, .line = line_}, pipeline);
+      pipeline.end_record();
     }
     return *this;
   }
   /// Returns the name of a track's class; empty for the default one, "none" if there is no such track.
   std::string class_of(const std::string& id) {
     // Nothing confirms the time of a few reports.
-    if (!watcher.monitor()) watcher.finish();
-    const NamedTrack* const track = watcher.names().find(track_id_of(id));
-    return track == nullptr ? "none" : watcher.settings().classes[track->motion_class].name;
+    if (!pipeline.view().pairs.monitor()) pipeline.finish();
+    const NamedTrack* const track = pipeline.view().tracks.names().find(track_id_of(id));
+    return track == nullptr ? "none" : pipeline.view().tracks.classes()[track->declared.motion_class].name;
   }
   /// Returns the times that a pair has turned undecided.
-  std::uint64_t undecided() const { return watcher.counts().turns.at(0).undecided; }
+  std::uint64_t undecided() const { return pipeline.view().counts.turns.at(0).undecided; }
 
   std::vector<Json> alerts;
-  Watcher watcher;
+  WatchPipeline pipeline;
   std::unique_ptr<ReportFormat> reader;
 
  private:
@@ -111,7 +111,7 @@ TEST(TrackClasses, AreThoseThatAisSays) {
   EXPECT_EQ(watch.class_of("111211001"), "search-aircraft");
   EXPECT_EQ(watch.class_of("992110001"), "aid-to-navigation");
   EXPECT_EQ(watch.class_of("992110002"), "") << "off its position";
-  EXPECT_EQ(watch.watcher.counts().malformed, 0u);
+  EXPECT_EQ(watch.pipeline.view().counts.malformed, 0u);
 }
 
 TEST(TrackClasses, AreThoseThatTablesOfAisSay) {
@@ -139,7 +139,7 @@ TEST(TrackClasses, AreThoseThatTablesOfAisSay) {
   ClassWatch plain(StreamFormat::ais);
   plain.read("MMSI,BaseDateTime,LAT,LON,SOG,COG\n1,2023-01-01T00:00:00,54,8,0.1,10\n");
   EXPECT_EQ(plain.class_of("1"), "");
-  EXPECT_EQ(plain.watcher.settings().classes.size(), 1u);
+  EXPECT_EQ(plain.pipeline.view().tracks.classes().size(), 1u);
 }
 
 TEST(TrackClasses, AreThoseThatEmittersOfAdsBSay) {
@@ -190,7 +190,7 @@ TEST(TrackClasses, AreLeftOutOnRequest) {
       .read(at_time(class_a_message(ship(211000002, 9, 0)), 0));
   EXPECT_EQ(watch.class_of("211000001"), "");
   EXPECT_EQ(watch.class_of("211000002"), "small-craft");
-  EXPECT_EQ(watch.watcher.settings().classes.size(), 2u);
+  EXPECT_EQ(watch.pipeline.view().tracks.classes().size(), 2u);
 }
 
 /// A ship that swings at anchor keeps its class; a status that its speed has contradicted is not believed for
@@ -212,7 +212,7 @@ TEST(TrackClasses, ChangeWhenTheSpeedContradictsTheStatus) {
   EXPECT_EQ(class_after(0.0, 1, 90), "vessel-at-rest");
   EXPECT_EQ(class_after(0.0, 0, 60), "") << "it is under way";
   EXPECT_EQ(class_after(0.0, 5, 60), "vessel-at-rest") << "no speed has contradicted this";
-  EXPECT_EQ(watch.watcher.monitor_counters().contradictions, 0u);
+  EXPECT_EQ(watch.pipeline.view().counters().contradictions, 0u);
   std::vector<std::string> classes;
   for (const Json& alert : watch.alerts)
     if (alert["event"] == "reclassified") classes.push_back(alert["class"]);
@@ -229,8 +229,8 @@ TEST(TrackClasses, AreNotChangedByLateReports) {
       "1,2023-01-01T00:02:30,54,8,0,10,1\n1,2023-01-01T00:02:10,54,8,0,10,1\n"
       "1,2023-01-01T00:02:20,54,8,2,10,0\n1,2023-01-01T00:00:30,54,8,0,10,1\n");
   EXPECT_EQ(watch.class_of("1"), "vessel-at-rest");
-  EXPECT_EQ(watch.watcher.counts().superseded, 3u);
-  EXPECT_EQ(watch.watcher.monitor_counters().reports, 4u);
+  EXPECT_EQ(watch.pipeline.view().counts.superseded, 3u);
+  EXPECT_EQ(watch.pipeline.view().counters().reports, 4u);
 }
 
 TEST(TrackClasses, AreThoseOfTheUser) {
@@ -248,7 +248,7 @@ TEST(TrackClasses, AreThoseOfTheUser) {
   EXPECT_EQ(table.class_of("c"), "drone");
   EXPECT_EQ(table.class_of("d"), "");
   EXPECT_EQ(table.class_of("e"), "");
-  const TrackClasses& classes = table.watcher.settings().classes;
+  const TrackClasses& classes = table.pipeline.view().tracks.classes();
   ASSERT_EQ(classes.size(), 3u) << "one of each name";
   EXPECT_EQ(classes.promise(0), "acceleration: 1; speed: 10");
   EXPECT_EQ(classes.promise(2), "0.3g,60kt:5 (acceleration: 2.942; speed: 30.87:5)");
@@ -262,7 +262,7 @@ TEST(TrackClasses, AreThoseOfTheUser) {
   EXPECT_EQ(lines.class_of("d1"), "");
   EXPECT_EQ(lines.class_of("d2"), "5:2,");
   EXPECT_EQ(lines.class_of("d3"), "drone");
-  EXPECT_EQ(lines.watcher.settings().classes.promise(1), "5:2, (acceleration: 5:2; speed: any)");
+  EXPECT_EQ(lines.pipeline.view().tracks.classes().promise(1), "5:2, (acceleration: 5:2; speed: any)");
 }
 
 class ClassOption : public ProgramTest {};
@@ -331,13 +331,13 @@ TEST(TrackClasses, AreNamedByAlerts) {
     watch.read(
         "MMSI,BaseDateTime,LAT,LON,SOG,COG,Status\n1,2023-01-01T00:00:00,54,8,0,10,1\n"
         "2,2023-01-01T00:00:00,54,8.0075,3,10,0\n3,2023-01-01T00:00:01,54.004,8,0,10,5\n");
-    watch.watcher.finish();
+    watch.pipeline.finish();
     ASSERT_EQ(watch.alerts.size(), 2u);
     const std::string rest = "vessel-at-rest (acceleration: 0.05; speed: 1)";
     for (const Json& alert : watch.alerts)
       EXPECT_EQ(alert["rests_on"]["both"],
                 alert["second"] == "3" ? rest : "first: " + rest + "; second: acceleration: 0.3; speed: 30");
-    const auto& definition = watch.watcher.monitor()->definition();
+    const auto& definition = watch.pipeline.view().pairs.monitor()->definition();
     EXPECT_EQ(definition.classes.size(), *own == '\0' ? 2u : 4u);
     EXPECT_NEAR(definition.classes.back().largest_speed.horizontal(), 1.0, 0.01);
   }
@@ -359,14 +359,14 @@ TEST(TrackClasses, ContinueFromASnapshot) {
     if (k % 37 != 0) continue;
     // One of the first is held: nothing confirms its time.
     auto later = std::make_unique<ClassWatch>(StreamFormat::nmea, options);
-    const auto passed_on = [](const Json& state) { return Json::from_cbor(Json::to_cbor(state)); };
-    later->watcher.restore(passed_on(part->watcher.save()));
-    later->reader->restore(passed_on(part->reader->save()));
+    later->pipeline.restore(part->pipeline.save());
+    later->reader->restore(Json::from_cbor(Json::to_cbor(part->reader->save())));
     later->alerts = part->alerts;
     part = std::move(later);
   }
   EXPECT_EQ(part->alerts, whole.alerts);
-  EXPECT_GT(whole.watcher.counts().events[static_cast<std::size_t>(MonitorEventKind::reclassified)], 50u);
+  EXPECT_GT(whole.pipeline.view().counts.events[static_cast<std::size_t>(MonitorEventKind::reclassified)],
+            50u);
   EXPECT_EQ(whole.class_of("211000002"), "small-craft");
 }
 
@@ -433,7 +433,7 @@ TEST(TrackClasses, KeepTheGuaranteeWhereShipsAnchorAndLeave) {
                          .window = 16.0,
                          .source = "test"};
   constexpr MotionPreset sayable[] = {MotionPreset::vessel_at_rest};
-  Watcher watcher(settings, [](std::uint64_t, std::string_view) {});
+  WatchPipeline pipeline(settings, [](std::uint64_t, std::string_view) {});
   Random random(17);
   std::vector<SeaShip> ships(14);
   for (std::size_t k = 0; k < ships.size(); ++k) {
@@ -497,21 +497,24 @@ TEST(TrackClasses, KeepTheGuaranteeWhereShipsAnchorAndLeave) {
       sent.pop();
       SeaShip& each = ships[next.ship];
       next.report.id = each.id;
-      watcher.take(next.report);
-      watcher.end_record();
+      pipeline.take(next.report);
+      pipeline.end_record();
       // Such a report ends the class of ships at rest.
       if (*next.report.ground_speed > 0.7 || next.report.said_status != MotionPreset::vessel_at_rest)
         each.is_reported_moving = true;
     }
-    watcher.time_is(time_of(time), TimeKind::number);
-    watcher.end_record();
-    if (std::fmod(time, 2.0) != 0.0 || watcher.names().size() < ships.size()) continue;
+    pipeline.time_is(time_of(time), TimeKind::number);
+    pipeline.end_record();
+    if (std::fmod(time, 2.0) != 0.0 || pipeline.view().tracks.names().size() < ships.size()) continue;
     for (std::size_t a = 0; a < ships.size(); ++a) {
-      const NamedTrack* const track = watcher.names().find(track_id_of(ships[a].id));
-      at_rest += track->motion_class != 0 ? 1 : 0;
+      const NamedTrack* const track = pipeline.view().tracks.names().find(track_id_of(ships[a].id));
+      at_rest += track->declared.motion_class != 0 ? 1 : 0;
       for (std::size_t b = a + 1; b < ships.size(); ++b) {
-        const Verdict verdict =
-            watcher.monitor()->answer(track_id_of(ships[a].id), track_id_of(ships[b].id)).value().verdict;
+        const Verdict verdict = pipeline.view()
+                                    .pairs.monitor()
+                                    ->answer(track_id_of(ships[a].id), track_id_of(ships[b].id))
+                                    .value()
+                                    .verdict;
         ++verdicts[static_cast<std::size_t>(verdict)];
         if (verdict == Verdict::undecided) continue;
         const double distance = norm(ships[a].position - ships[b].position);
@@ -520,8 +523,8 @@ TEST(TrackClasses, KeepTheGuaranteeWhereShipsAnchorAndLeave) {
       }
     }
   }
-  EXPECT_EQ(watcher.monitor_counters().contradictions, 0u);
-  EXPECT_GT(watcher.counts().events[static_cast<std::size_t>(MonitorEventKind::reclassified)], 20u);
+  EXPECT_EQ(pipeline.view().counters().contradictions, 0u);
+  EXPECT_GT(pipeline.view().counts.events[static_cast<std::size_t>(MonitorEventKind::reclassified)], 20u);
   EXPECT_GT(at_rest, 5000);
   EXPECT_GT(verdicts[static_cast<std::size_t>(Verdict::within)], 500);
   EXPECT_GT(verdicts[static_cast<std::size_t>(Verdict::apart)], 50'000);

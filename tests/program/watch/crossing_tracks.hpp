@@ -13,7 +13,7 @@
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/random.hpp"
-#include "watch/track_names.hpp"
+#include "watch/tracks/track_names.hpp"
 
 namespace kinesphere::program {
 

@@ -1,5 +1,5 @@
 // The map's errors are within its bounds: geodesics of the ellipsoid are the truth.
-#include "watch/local_frame.hpp"
+#include "geography/local_frame.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Numbers with units, and separations made of them.
-#include "watch/motion_classes.hpp"
+#include "watch/tracks/motion_classes.hpp"
 
 #include <gtest/gtest.h>
 

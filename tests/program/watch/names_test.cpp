@@ -11,8 +11,8 @@
 #include "formats/streams/known_names.hpp"
 #include "formats/streams/report_format.hpp"
 #include "program/formats/ais/ais_encoder.hpp"
-#include "watch/watch_report.hpp"
-#include "watch/watcher.hpp"
+#include "watch/output/watch_report.hpp"
+#include "watch/watch_pipeline.hpp"
 
 namespace kinesphere::program::names_test {
 namespace {
@@ -25,33 +25,32 @@ class NamedStream {
   explicit NamedStream(StreamFormat format)
       : format_(make_format(format, {})),
         cut_(records_of(format)),
-        watcher_({.separations = {parse_separation("sphere:10")},
-                  .own = "own one",
-                  .classes = TrackClasses({ErrorBound(1.0), ErrorBound(300.0)}),
-                  .position_error = {10.0, "test"},
-                  .height_error = {10.0, "test"},
-                  .velocity_error = {1.0, "test"},
-                  .climb_error = {1.0, "test"},
-                  .silence = 60.0,
-                  .forget = 600.0,
-                  .source = "test",
-                  .format = std::string(name_of(format))},
-                 [](std::uint64_t, std::string_view) {}) {}
+        pipeline_({.separations = {parse_separation("sphere:10")},
+                   .own = "own one",
+                   .classes = TrackClasses({ErrorBound(1.0), ErrorBound(300.0)}),
+                   .position_error = {10.0, "test"},
+                   .height_error = {10.0, "test"},
+                   .velocity_error = {1.0, "test"},
+                   .climb_error = {1.0, "test"},
+                   .silence = 60.0,
+                   .forget = 600.0,
+                   .source = "test",
+                   .format = std::string(name_of(format))},
+                  [](std::uint64_t, std::string_view) {}) {}
 
   NamedStream& read(std::string_view text) {
     cut_.feed(text);
     while (const auto record = cut_.next()) {
-      watcher_.begin_record(record->line);
-      format_->read(*record, watcher_);
-      watcher_.end_record();
+      pipeline_.begin_record(record->line);
+      format_->read(*record, pipeline_);
+      pipeline_.end_record();
     }
     return *this;
   }
   Json state() {
     // A short stream is taken at its end.
-    watcher_.finish();
-    std::fprintf(stderr, "%s\n", watch_state_json(watcher_).c_str());
-    return Json::parse(watch_state_json(watcher_));
+    pipeline_.finish();
+    return Json::parse(watch_state_json(pipeline_.view()));
   }
   /// Names by ids; "-" where there is none.
   Names names() {
@@ -63,15 +62,14 @@ class NamedStream {
   }
   /// Continues from the snapshot of another, as read from its bytes.
   void continue_from(const NamedStream& other) {
-    const auto read = [](const Json& state) { return Json::from_cbor(Json::to_cbor(state)); };
-    format_->restore(read(other.format_->save()));
-    watcher_.restore(read(other.watcher_.save()));
+    format_->restore(Json::from_cbor(Json::to_cbor(other.format_->save())));
+    pipeline_.restore(other.pipeline_.save());
   }
 
  private:
   std::unique_ptr<ReportFormat> format_;
   RecordCutter cut_;
-  Watcher watcher_;
+  WatchPipeline pipeline_;
 };
 
 TEST(NamesOfTracks, OfReadsbAndOpensky) {

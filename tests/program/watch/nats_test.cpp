@@ -2,6 +2,8 @@
 // them or the server is killed.
 #ifdef KINESPHERE_WITH_NATS
 
+#include <fmt/format.h>
+
 #include <array>
 #include <atomic>
 #include <chrono>

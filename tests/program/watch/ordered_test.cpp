@@ -1,4 +1,6 @@
 // Files in `kinesphere watch` whose rows are not in the order of their times, or are of one moment.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>

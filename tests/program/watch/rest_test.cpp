@@ -1,6 +1,8 @@
 // Tracks at rest in `kinesphere watch`: a harbour in which boats pass moored ones, leave and come, and the
 // truth of who met whom is known.
-#include "watch/rest.hpp"
+#include "watch/tracks/rest.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

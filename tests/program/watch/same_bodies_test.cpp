@@ -1,5 +1,7 @@
 // Ids of `kinesphere watch` that may be one body: tracks that go on under another id, and echoes. What is
 // true comes from the paths of the bodies, which the program does not know.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>

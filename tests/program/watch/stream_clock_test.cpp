@@ -1,5 +1,5 @@
 // Which times the clock accepts.
-#include "watch/stream_clock.hpp"
+#include "watch/clock/stream_clock.hpp"
 
 #include <gtest/gtest.h>
 

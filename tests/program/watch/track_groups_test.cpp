@@ -1,12 +1,12 @@
 // Groups of tracks that stand at one place, against a plain count.
-#include "watch/track_groups.hpp"
+#include "watch/monitor/track_groups.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "kinesphere/random.hpp"
+#include "support/read_back.hpp"
 
 namespace kinesphere::program::track_groups_test {
 namespace {
@@ -59,8 +59,11 @@ TEST(TrackGroups, RandomTracksAndSnapshots) {
   for (int step = 0; step < 20000; ++step) {
     if (step % 500 == 0) {
       TrackGroups restored(cutting);
-      restored.restore(nlohmann::json::from_cbor(nlohmann::json::to_cbor(groups.save())));
-      ASSERT_EQ(restored.save(), groups.save()) << "seed " << seed << ", step " << step;
+      ASSERT_TRUE(read_back(groups, restored));
+      ByteWriter before, after;
+      before(groups);
+      after(restored);
+      ASSERT_EQ(after.take(), before.take()) << "seed " << seed << ", step " << step;
       groups = restored;
     }
     const auto id = static_cast<TrackId>(random.uniform(0.0, 90.0));

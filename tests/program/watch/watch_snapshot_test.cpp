@@ -341,20 +341,52 @@ TEST_F(WatchRestart, SaysAtOnceThatItCannotKeepASnapshot) {
 
 /// Files with a correct checksum that hold no state of a watch.
 TEST_F(WatchRestart, RefusesSoundFilesOfNonsense) {
-  const std::string stream = write("s.jsonl", stream_of(json_line, 2000));
+  const std::string before = stream_of(changing_line, 3000), all = stream_of(changing_line, 3300);
+  const std::string stream = write("s.jsonl", before);
   const std::string arguments =
       "watch " + stream + crossing_promises + crossing_errors + " --snapshot '" + path("state") + "'";
   ASSERT_EQ(run(arguments).exit_code, 0);
   const WatchSnapshot sound = read_snapshot(path("state")).value();
-  for (const char* field : {"clock", "held", "tracks", "counts", "monitor", "time_kind", "first"}) {
+  const auto expect_refused = [&](const WatchSnapshot& wrong) {
+    write_snapshot(path("state"), wrong);
+    expect_wrong_input(arguments, {path("state"), "expected a snapshot"});
+  };
+  Random random(8);
+  const auto size = static_cast<double>(sound.pipeline.size());
+  for (int k = 0; k < 20; ++k) {
     WatchSnapshot wrong = sound;
-    wrong.watcher.erase(field);
-    write_snapshot(path("state"), wrong);
-    expect_wrong_input(arguments, {"expected a snapshot"});
-    wrong.watcher[field] = "text";
-    write_snapshot(path("state"), wrong);
-    expect_wrong_input(arguments, {"expected a snapshot"});
+    wrong.pipeline.resize(static_cast<std::size_t>(random.uniform(0.0, size)));
+    expect_refused(wrong);
   }
+  WatchSnapshot longer = sound, other_memory = sound;
+  longer.pipeline.push_back({});
+  expect_refused(longer);
+  other_memory.reader.memory = {std::byte{0xff}};
+  expect_refused(other_memory);
+  // Another number changes the state, or is refused; it is never the end of the program.
+  write("s.jsonl", all);
+  for (int k = 0; k < 60; ++k) {
+    WatchSnapshot wrong = sound;
+    const auto place = static_cast<std::size_t>(random.uniform(0.0, size));
+    wrong.pipeline[place] ^= std::byte{0x41};
+    write_snapshot(path("state"), wrong);
+    const int code = run(arguments).exit_code;
+    EXPECT_TRUE(code == 0 || code == 2) << "byte " << place << ", exit code " << code;
+  }
+}
+
+TEST_F(WatchRestart, RefusesSnapshotsOfOtherVersionsByName) {
+  const std::string arguments = "watch " + write("s.jsonl", stream_of(json_line, 300)) + crossing_promises +
+                                crossing_errors + " --snapshot '" + path("state") + "'";
+  write("state", "kinesphere watch snapshot 13\n0000000000000004 00000000\nabcd");
+  expect_wrong_input(arguments, {path("state"), "expected a snapshot of this version of kinesphere watch"});
+  std::filesystem::remove(path("state"));
+  ASSERT_EQ(run(arguments).exit_code, 0);
+  std::string state = read_text(path("state"));
+  ++state[8];
+  write("state", state);
+  expect_wrong_input(arguments,
+                     {path("state"), "expected a snapshot of this version of kinesphere watch", "version"});
 }
 
 TEST_F(WatchRestart, SharesTellTogetherWhatOneTells) {

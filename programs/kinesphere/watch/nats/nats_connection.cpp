@@ -2,10 +2,12 @@
 #include "watch/nats/nats_connection.hpp"
 
 #include <fmt/format.h>
+#include <simdjson.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <cstdint>
 
+#include "base/json_text.hpp"
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
 
@@ -58,7 +60,7 @@ NatsConnection::NatsConnection(const NatsAddress& address, bool is_quiet)
 }
 
 std::optional<std::string> NatsConnection::stream_of(const std::string& subject) const {
-  const std::string question = nlohmann::json{{"subject", subject}}.dump();
+  const std::string question = fmt::format(R"({{"subject": {}}})", json_text(subject));
   natsMsg* reply = nullptr;
   const natsStatus status =
       natsConnection_RequestString(&reply, get(), "$JS.API.STREAM.NAMES", question.c_str(), 5000);
@@ -66,24 +68,27 @@ std::optional<std::string> NatsConnection::stream_of(const std::string& subject)
   if (status == NATS_NO_RESPONDERS) return std::nullopt;
   if (status != NATS_OK) fail(status, "cannot ask for streams");
   const std::string_view text(natsMsg_GetData(reply), static_cast<std::size_t>(natsMsg_GetDataLength(reply)));
-  const auto answer = nlohmann::json::parse(text, nullptr, false);
-  if (!answer.is_object())
+  simdjson::dom::parser parser;
+  simdjson::dom::object answer;
+  if (parser.parse(text).get(answer))
     throw ProgramError(
         fmt::format("{}: expected an answer about streams, but got '{}'", address_.name, text));
-  if (const auto error = answer.find("error"); error != answer.end()) {
+  if (simdjson::dom::object error; !answer["error"].get(error)) {
     // JetStream is disabled for this account, or entirely.
-    constexpr int not_for_account = 10039, not_at_all = 10076;
-    const int code = error->value("err_code", 0);
-    if (code == not_for_account || code == not_at_all) return std::nullopt;
-    throw ProgramError(fmt::format("{}: cannot ask for streams: {}", address_.name,
-                                   error->value("description", "the server does not say why")));
+    constexpr std::int64_t not_for_account = 10039, not_at_all = 10076;
+    std::int64_t code = 0;
+    std::string_view why;
+    if (!error["err_code"].get(code) && (code == not_for_account || code == not_at_all)) return std::nullopt;
+    if (error["description"].get(why)) why = "the server does not say why";
+    throw ProgramError(fmt::format("{}: cannot ask for streams: {}", address_.name, why));
   }
-  const auto streams = answer.find("streams");
-  if (streams == answer.end() || !streams->is_array() || streams->empty()) return std::nullopt;
-  if (streams->size() > 1)
+  simdjson::dom::array streams;
+  if (answer["streams"].get(streams) || streams.size() == 0) return std::nullopt;
+  std::string_view name;
+  if (streams.size() > 1 || streams.at(0).get(name))
     throw ProgramError(fmt::format("{}: expected one stream of JetStream that holds '{}', but there are {}",
-                                   address_.name, subject, streams->size()));
-  const auto stream = streams->front().get<std::string>();
+                                   address_.name, subject, streams.size()));
+  const std::string stream(name);
   natsStatus got{};
   const NatsStreamInfo info = stream_info(stream, got);
   if (!info) fail(got, "cannot ask for its stream");

@@ -65,8 +65,6 @@ class NatsSubjectSource final : public ReportSource {
     return Outcome::quiet;
   }
   std::uint64_t position(std::size_t) const override { return position_; }
-  StreamPlace place(std::size_t) const override { return {name(), position_, 0}; }
-  std::optional<std::string> identity() const override { return std::nullopt; }
   bool has_whole_records() const override { return true; }
   std::string name() const override { return connection_.address().name; }
 
@@ -212,10 +210,9 @@ class NatsStreamSource final : public ReportSource {
   }
 
   /// Returns a number that identifies the stream.
-  std::uint32_t check() const {
-    const auto created = static_cast<std::uint64_t>(created_);
+  std::uint64_t check() const {
     // 0 stands for no stream.
-    return static_cast<std::uint32_t>(created ^ created >> 32) | 1;
+    return static_cast<std::uint64_t>(created_) | 1;
   }
 
   void drop() {

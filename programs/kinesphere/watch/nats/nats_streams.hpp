@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "watch/alert_output.hpp"
 #include "watch/nats/nats_address.hpp"
-#include "watch/report_source.hpp"
-#include "watch/stop_signals.hpp"
+#include "watch/output/alert_output.hpp"
+#include "watch/source/report_source.hpp"
+#include "watch/source/stop_signals.hpp"
 
 namespace kinesphere::program {
 

@@ -8,10 +8,10 @@
 #include <sstream>
 #include <vector>
 
+#include "geography/local_frame.hpp"
 #include "kinesphere/random.hpp"
 #include "program/formats/ais/ais_encoder.hpp"
 #include "program/support.hpp"
-#include "watch/local_frame.hpp"
 
 namespace kinesphere::program::ais_day_test {
 namespace {
