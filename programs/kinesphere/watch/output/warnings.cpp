@@ -86,8 +86,9 @@ std::string disorder_text(const Facts& facts) {
 }
 
 bool are_many_contradictory(const Facts& facts) {
-  constexpr std::uint64_t fewest = 10;
-  return facts.monitor.contradictions >= fewest && 5 * facts.monitor.contradictions > facts.monitor.reports;
+  constexpr std::uint64_t fewest_refused = 10;
+  return facts.monitor.contradictions >= fewest_refused &&
+         5 * facts.monitor.contradictions > facts.monitor.reports;
 }
 
 bool lack_velocities(const Facts& facts) {
@@ -135,7 +136,7 @@ bool is_one_moment(const Facts& facts) {
 std::uint64_t of_undecided_bodies(const Facts& facts) { return facts.watch.desk.undecided_bodies(); }
 
 /// What is warned of with any record, in the order in which it is told.
-const WarningRule rules[] = {
+const WarningRule warning_rules[] = {
     {"crowd", nullptr, of_crowded,
      "there are more tracks than --most-tracks or more open pairs than --most-pairs: some tracks "
      "are not watched"},
@@ -185,7 +186,7 @@ std::string text_of(const WarningRule& rule, const Facts& facts) {
 
 Warnings::Warnings(const WatchView& watch, bool is_recording, bool is_quiet)
     : watch_(watch), is_recording_(is_recording), is_quiet_(is_quiet) {
-  for (const WarningRule& rule : rules) pending_.push_back(&rule);
+  for (const WarningRule& rule : warning_rules) pending_.push_back(&rule);
 }
 
 void Warnings::look() {
