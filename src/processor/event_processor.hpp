@@ -189,6 +189,7 @@ class alignas(128) EventProcessor final : public core::Host {
   template <class Partner>
   double defer(const ContactPredictor<Partner>& predictor, const Threshold& threshold, const Event& current,
                const RelativeLimits& limits, Counters& work);
+  void note_link(const Event& current, const Threshold& threshold);
   Result<void> probe_stale_of(std::uint32_t a, std::uint32_t b);
   Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;

@@ -113,8 +113,19 @@ std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& pr
     events_.queue(current);
     state.guard_reported = true;
   }
-  if (stays ? state != threshold.state : state.guard_reported) contacts().set_state(current, state);
+  if (stays ? state != threshold.state : state.guard_reported) {
+    contacts().set_state(current, state);
+    note_link(current, threshold);
+  }
   return decision.next_check;
+}
+
+/// Tells the core of a contact that is remembered without an event of its begin, so that it is followed until
+/// the two have separated.
+void EventProcessor::note_link(const Event& current, const Threshold& threshold) {
+  if (threshold.within) return;
+  set_kind_in_core(bodies().table().number_of(current.first));
+  if (current.second != no_body) set_kind_in_core(bodies().table().number_of(current.second));
 }
 
 /// Defers the begin of a jammed contact by a least step or, after too many jams, until the two have
@@ -125,6 +136,7 @@ double EventProcessor::defer(const ContactPredictor<Partner>& predictor, const T
   const ContactDecision decision = predictor.defer(current, limits);
   ++work.zeno_steps;
   const ContactGraph::Jam jam = contacts().note_jam(current, threshold, decision.breaks_tolerance);
+  note_link(current, threshold);
   if (jam.is_news) events_.queue(current);
   return jam.is_last ? predictor.until_separated() : decision.next_check;
 }
