@@ -107,6 +107,8 @@ class ByteWriter {
     bytes_.resize(std::exchange(end_, 0));
     return std::exchange(bytes_, {});
   }
+  /// Returns the memory in use (bytes).
+  std::size_t capacity() const { return bytes_.capacity(); }
   /// Discards the bytes written, and keeps the memory for reuse.
   void clear() { end_ = 0; }
 

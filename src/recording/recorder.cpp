@@ -27,7 +27,7 @@ std::vector<std::byte> Recorder::finish(const World& world) {
 }
 
 std::size_t Recorder::memory() const {
-  return sizeof *this + heap_bytes(content_.bytes(), asking_.answers, asking_.rotations);
+  return sizeof *this + content_.capacity() + heap_bytes(asking_.answers, asking_.rotations);
 }
 
 Recorder::Listener::Listener(Recorder& recorder, const World& world, const Probe& probe,
