@@ -119,9 +119,9 @@ Box Distribution::way_of(const BodyRecord& body, const Slab& slab) const {
   return space_.within(way);
 }
 
-/// Returns the region of a rank and what is so far around it.
-Box Distribution::region_around(int rank, double distance) const {
-  Box region = partition_.region_of(rank);
+/// Returns the region of this rank and what is so far around it.
+Box Distribution::region_around(double distance) const {
+  Box region = partition_.region_of(communicator_.rank());
   for (int axis = 0; axis < 3; ++axis) {
     if (!space_.repeats(axis) || region.upper[axis] < region.lower[axis]) continue;
     region.lower[axis] = std::max(region.lower[axis], primary_.lower[axis]);
@@ -137,11 +137,11 @@ void Distribution::know(std::span<const Box> ways, double width) {
   const auto leads_elsewhere = [&](const Box& way) { return !known_.covers(way); };
   double distance = width;
   for (;; distance *= 1.5) {
-    const Box around = region_around(communicator_.rank(), distance);
+    const Box around = region_around(distance);
     here.assign(std::span(&around, 1));
     if (std::count_if(ways.begin(), ways.end(), leads_elsewhere) <= most_ways_elsewhere) break;
-    // No distance around no space covers anything.
-    if (around.upper.x < around.lower.x || !(distance < infinity)) break;
+    // No distance around no space covers anything, and none grows from nothing.
+    if (around.upper.x < around.lower.x || !(distance > 0.0 && distance < infinity)) break;
   }
   for (const Box& way : ways)
     if (leads_elsewhere(way)) here.add(grown(way, width));

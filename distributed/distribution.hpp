@@ -67,7 +67,7 @@ class Distribution {
   Vec3 place_of(const BodyRecord& body, double time) const;
   Box way_of(const BodyRecord& body, const Slab& slab) const;
   void divide(std::span<BodyRecord> own, double time);
-  Box region_around(int rank, double distance) const;
+  Box region_around(double distance) const;
   void know(std::span<const Box> ways, double width);
   Result<std::vector<BodyRecord>> receive(std::vector<Communicator::Bytes> bytes);
   Box box_of(const core::Ghosts::Region& region) const;
