@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "contact/rebound.hpp"
+
 namespace kinesphere {
 namespace {
 
@@ -37,18 +39,25 @@ double inverse_mass(double mass, const Vec3& gain, const Vec3& arm, const Vec3& 
   return (std::isinf(mass) ? 0.0 : 1.0 / divisible(mass)) + dot(gain, cross(arm, normal));
 }
 
+/// Returns that of each body of an event; 0 for those that do not move.
+std::array<double, 2> inverse_masses(const Event& event, double first_mass, double second_mass) {
+  const Vec3& normal = event.normal;
+  const double first =
+      stays(event.first_traits)
+          ? 0.0
+          : inverse_mass(first_mass, event.first_spin_gain, event.point - event.first_state.position, normal);
+  const bool is_alone = event.second == no_body;
+  const double second = is_alone || stays(event.second_traits)
+                            ? 0.0
+                            : inverse_mass(second_mass, event.second_spin_gain,
+                                           event.point - event.second_state.position, normal);
+  return {first, second};
+}
+
 /// Returns velocities as rebound() does, for a contact that turns a rigid body.
 Bounce rebound_with_spin(const Event& contact, double first_mass, double second_mass, double speed) {
   const Vec3& normal = contact.normal;
-  const bool is_wall = contact.second == no_body;
-  const double first = stays(contact.first_traits)
-                           ? 0.0
-                           : inverse_mass(first_mass, contact.first_spin_gain,
-                                          contact.point - contact.first_state.position, normal);
-  const double second = is_wall || stays(contact.second_traits)
-                            ? 0.0
-                            : inverse_mass(second_mass, contact.second_spin_gain,
-                                           contact.point - contact.second_state.position, normal);
+  const auto [first, second] = inverse_masses(contact, first_mass, second_mass);
   Bounce after{contact.first_state.velocity, contact.second_state.velocity, contact.first_angular_velocity,
                contact.second_angular_velocity};
   if (!(first + second > 0.0)) return after;
@@ -64,7 +73,8 @@ Bounce rebound_with_spin(const Event& contact, double first_mass, double second_
   return after;
 }
 
-/// Returns velocities that change the relative velocity along the normal by `speed`.
+}  // namespace
+
 Bounce rebound(const Event& contact, double first_mass, double second_mass, double speed) {
   if (contact.first_spin_gain != Vec3{} || contact.second_spin_gain != Vec3{})
     return rebound_with_spin(contact, first_mass, second_mass, speed);
@@ -77,7 +87,10 @@ Bounce rebound(const Event& contact, double first_mass, double second_mass, doub
   return {contact.first_state.velocity - change * first, contact.second_state.velocity + change * second};
 }
 
-}  // namespace
+double inverse_effective_mass(const Event& event) {
+  const auto [first, second] = inverse_masses(event, event.first_mass, event.second_mass);
+  return first + second;
+}
 
 Bounce bounce(const Event& contact, double restitution) {
   return bounce(contact, contact.first_mass, contact.second_mass, restitution);

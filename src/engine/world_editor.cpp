@@ -89,6 +89,7 @@ void World::WorldEditor::remove(BodyId id) {
   if (bodies()[number].is_sleeping()) sleeping().resume(number);
   sleeping().wake(number);
   main_.detach(number);
+  state_.contacts.pairs().forget(number);
   state_.bodies.remove(number);
 }
 

@@ -23,10 +23,7 @@ class PairCertifier {
     return std::min(own_time(a), own_time(b));
   }
 
-  /// Returns true if the two touch or sense each other.
-  bool are_linked(std::uint32_t a, std::uint32_t b) const {
-    return contacts().touch(a, b) || contacts().overlap(a, b);
-  }
+  bool are_linked(std::uint32_t a, std::uint32_t b) const { return contacts().are_linked(a, b); }
   /// Calls visit(threshold) for each threshold that two bodies can cross next: their contact, the next sensor
   /// distance inward, and the next one outward. Precondition: the two may meet.
   template <class Visit>
@@ -61,10 +58,17 @@ void PairCertifier::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit v
     visit(contacts().contact_threshold(a, b, bodies().wanted_of(a, b)));
   if (!bodies().sensors.any()) return;
   const OverlapRecords::List crossed = contacts().overlaps_of(a, b);
+  const PairRecord* const record = contacts().pairs().find(a, b);
+  const auto sensed = [&](bool within, double distance) {
+    visit(Threshold{.within = within,
+                    .distance = distance,
+                    .sensed = true,
+                    .is_turned = record != nullptr && record->turned_at == distance});
+  };
   if (const auto next =
           bodies().sensors.next_inward(sensing_of(bodies(), a), sensing_of(bodies(), b), crossed))
-    visit(Threshold{.within = false, .distance = *next, .sensed = true});
-  if (!crossed.empty()) visit(Threshold{.within = true, .distance = crossed.back().distance, .sensed = true});
+    sensed(false, *next);
+  if (!crossed.empty()) sensed(true, crossed.back().distance);
 }
 
 }  // namespace kinesphere

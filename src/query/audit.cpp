@@ -159,7 +159,7 @@ class World::Engine::Audit {
     check_overlaps(b, a);
     if (!engine_.bodies().may_meet(a, b) || !is_certified(a, b)) return;
     engine_.main().certifier().for_each_threshold(a, b, [&](const Threshold& threshold) {
-      check_threshold(a, b, threshold);
+      if (!threshold.is_turned) check_threshold(a, b, threshold);
       if (threshold.is_watched()) check_threshold(a, b, next_approach(threshold));
     });
   }
