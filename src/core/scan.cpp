@@ -30,6 +30,7 @@ void Core::schedule(std::uint32_t number, bool is_last, Host& host) {
   ball.about = none;
   ball.due = ball.second = ball.own;
   const auto neighbours = lists_.at(ball.list);
+  const auto linked = ball.is(Ball::linked) ? host.linked_with(number) : std::span<const std::uint32_t>();
   Counters& work = host.work_counters(number);
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     std::array<std::uint32_t, most_lanes> room;
@@ -45,17 +46,19 @@ void Core::schedule(std::uint32_t number, bool is_last, Host& host) {
       if (!(until > balls_.time())) {
         ball.set(Ball::crowded, true);
         balls_[other].set(Ball::crowded, true);
-        until = std::min(host.unchanged_until(number, other), balls_[other].own);
+        if (std::binary_search(linked.begin(), linked.end(), other)) continue;
+        until = host.unchanged_until(number, other);
       }
       ++work.certificates;
       if (until < ball.own) ++work.hot_pairs;
       consider(ball, other, until);
     }
   }
-  if (ball.is(Ball::linked))
-    for (const std::uint32_t other : host.linked_with(number))
-      if (changes_[other] <= changes_[number])
-        consider(ball, other, std::min(host.unchanged_until(number, other), balls_[other].own));
+  for (const std::uint32_t other : linked) {
+    if (changes_[other] > changes_[number]) continue;
+    ++work.certificates;
+    consider(ball, other, host.unchanged_until(number, other));
+  }
   queue_.push(balls_.all(), number);
   note_course(number);
 }

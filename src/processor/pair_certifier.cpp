@@ -44,8 +44,43 @@ double PairCertifier::apart_until(std::uint32_t a, std::uint32_t b) const {
   return until < end ? until : infinity;
 }
 
+bool PairCertifier::are_within_in_flight(std::uint32_t a, std::uint32_t b) const {
+  if (!bodies().sensors.any()) return false;
+  const Body &one = bodies()[a], &other = bodies()[b];
+  const auto is_ball = [](const Body& body) { return !body.is_shaped() && !body.is_static(); };
+  return one.bound.is_exact() && other.bound.is_exact() && is_ball(one) && is_ball(other) &&
+         one.bound.planned_acceleration == other.bound.planned_acceleration && !bodies().radii.any() &&
+         contacts().overlap(a, b) && !contacts().touch(a, b);
+}
+
+/// Computes unchanged_until_by_thresholds() for two that are are_within_in_flight().
+double PairCertifier::within_in_flight_until(std::uint32_t a, std::uint32_t b) const {
+  if (bodies().table().comes_before(b, a)) std::swap(a, b);
+  const BoundAt one(bodies()[a].bound, time_);
+  BoundAt other(bodies()[b].bound, time_);
+  if (bodies().space().repeats()) other.centre += shift_to_meet(bodies(), a, b);
+  const QuickReject pair(one, other);
+  const bool recede = recede_for_good(State{one.centre, one.velocity}, State{other.centre, other.velocity});
+  const double margin = rounding_margin(bodies().definition()), tolerance = contacts().rule().tolerance();
+  double first = infinity;
+  for_each_threshold(a, b, [&](const Threshold& threshold) {
+    const auto stays_for = [&] {
+      if (threshold.is_turned) return 0.0;
+      if (threshold.within)
+        return pair.parting(threshold.distance + contacts().rule().release_gap(), margin);
+      const bool is_near = pair.is_near(threshold.distance + tolerance);
+      if (!is_near) return pair.meeting(infinity, threshold.distance + margin);
+      const bool only_approaches = !threshold.sensed && !wants_ends(threshold.wanted);
+      return only_approaches && recede ? infinity : 0.0;
+    };
+    first = std::min(first, std::max(rounding::sum_down(time_, stays_for()), time_));
+  });
+  return first;
+}
+
 double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {
-  const double end = earlier_own_time(a, b);
+  if (are_within_in_flight(a, b)) return bodies().may_meet(a, b) ? within_in_flight_until(a, b) : infinity;
+  const double end = horizon(a, b);
   double first = infinity;
   if (!bodies().may_meet(a, b)) return first;
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& other) {
