@@ -126,7 +126,7 @@ Result<void> Core::handle(std::uint32_t number, Host& host) {
     schedule(number, false, host);
     return {};
   }
-  // The host looks no farther than until the own time of either, unless the two are linked.
+  // What the host says of the two holds until the own time of either.
   if (!(balls_[other].own > balls_.time()))
     if (auto handled = handle_own(other, host); !handled) return handled;
   const Result<double> until = recheck(number, other, host);
@@ -146,21 +146,26 @@ Result<double> Core::recheck(std::uint32_t number, std::uint32_t other, Host& ho
   ++host.work_counters(number).pair_checks;
   const Ball &ball = balls_[number], &partner = balls_[other];
   const auto is_plain = [](const Ball& each) { return each.is(Ball::plain) && !each.is(Ball::linked); };
-  if (!is_plain(ball) || !is_plain(partner)) return host.recheck(number, other);
+  const auto ask_host = [&]() -> Result<double> {
+    const Result<double> until = host.recheck(number, other);
+    if (!until) return until.error();
+    return std::min(*until, holds_until(number, other));
+  };
+  if (!is_plain(ball) || !is_plain(partner)) return ask_host();
   const double now = balls_.time();
   const bool are_exact = balls_.is_exact(number) && balls_.is_exact(other);
   for (;;) {
     const double until = apart_until(number, other, ball.own - now);
     ++host.work_counters(number).certificates;
     if (until > now) return until;
-    if (ball.time == now && partner.time == now) return host.recheck(number, other);
+    if (ball.time == now && partner.time == now) return ask_host();
     const bool is_first = ball.time < partner.time;
     const std::array<std::uint32_t, 2> older{is_first ? number : other, is_first ? other : number};
     const bool asks_both = are_exact && std::max(ball.time, partner.time) < now;
     const Result<bool> kept = host.report(std::span(older).first(asks_both ? 2 : 1), Host::Reason::near);
     if (!kept) return kept.error();
     if (!*kept) return infinity;
-    if (are_exact) return host.recheck(number, other);
+    if (are_exact) return ask_host();
   }
 }
 
@@ -178,7 +183,7 @@ Result<void> Core::handle_own(std::uint32_t number, Host& host) {
   if (!until) return until.error();
   again.dismiss();
   limit_own(number, *until);
-  schedule(number, false, host);
+  schedule_anew(number, host);
   return {};
 }
 

@@ -12,7 +12,8 @@
 namespace kinesphere::core {
 
 /// The core calls the functions while it settles changes and while it handles what is due. Times that are
-/// returned are never earlier than now.
+/// returned are never earlier than now. Those later than the own time of a ball (Ball::own) mean no more than
+/// that time.
 class Host {
  public:
   /// Returns those with which the ball is linked: it touches or senses them. They concern it wherever they
@@ -22,15 +23,14 @@ class Host {
   /// their number.
   virtual std::size_t keep_partners(std::uint32_t ball, std::span<std::uint32_t> others) = 0;
   /// Returns a time before which nothing happens between two neighbours, from what is known of them; now if
-  /// reports have to decide. Two that are not linked are neighbours only as long as their safe regions are
-  /// within reach, so it is no later than the own time of either (Ball::own) then.
+  /// reports have to decide.
   virtual double unchanged_until(std::uint32_t a, std::uint32_t b) = 0;
   /// Finds out whether something happens between two neighbours now, with reports if these are needed: those
   /// of two plain balls that are not linked (Ball::plain) are of now. Returns a time before which nothing
-  /// more happens between them, as unchanged_until() does; any time later than now if they are to be told to
-  /// the core as changed. Errors: those of the reports, after which nothing has changed.
+  /// more happens between them; infinity if they are to be told to the core as changed. Errors: those of the
+  /// reports, after which nothing has changed.
   virtual Result<double> recheck(std::uint32_t a, std::uint32_t b) = 0;
-  /// The same of a ball and the walls; times later than its own time mean no more than that time.
+  /// The same of a ball and the walls.
   virtual double walls_unchanged_until(std::uint32_t ball) = 0;
   virtual Result<double> recheck_walls(std::uint32_t ball) = 0;
   /// What a report is for: two that are near each other, or another safe region.

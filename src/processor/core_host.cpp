@@ -127,12 +127,11 @@ std::size_t EventProcessor::keep_partners(std::uint32_t ball, std::span<std::uin
 double EventProcessor::unchanged_until(std::uint32_t a, std::uint32_t b) {
   if (const double known = known_.find(bodies(), a, b); known > time_) return known;
   const PairCertifier certifier = this->certifier();
-  if (certifier.are_linked(a, b))
-    return std::min(certifier.unchanged_until_by_thresholds(a, b), certifier.horizon(a, b));
-  const double end = certifier.earlier_own_time(a, b);
-  const double until = std::min(certifier.apart_until(a, b), end);
-  if (until <= time_) return certifier.bounce_apart(a, b) ? end : time_;
-  if (bodies()[a].is_shaped() || bodies()[b].is_shaped()) known_.keep(bodies(), a, b, until, time_);
+  if (certifier.are_linked(a, b)) return certifier.unchanged_until_by_thresholds(a, b);
+  const double until = certifier.apart_until(a, b);
+  if (until <= time_) return certifier.bounce_apart(a, b) ? infinity : time_;
+  if (bodies()[a].is_shaped() || bodies()[b].is_shaped())
+    known_.keep(bodies(), a, b, std::min(until, certifier.earlier_own_time(a, b)), time_);
   return until;
 }
 
@@ -140,8 +139,7 @@ Result<double> EventProcessor::recheck(std::uint32_t a, std::uint32_t b) {
   if (!bodies().may_meet(a, b)) return infinity;
   const auto until = check_pair(a, b);
   if (!until) return until.error();
-  const double end = certifier().horizon(a, b);
-  return std::min(keep_time(a, b, *until, end), end);
+  return keep_time(a, b, *until, certifier().earlier_own_time(a, b));
 }
 
 double EventProcessor::walls_unchanged_until(std::uint32_t ball) {

@@ -44,6 +44,8 @@ double PairCertifier::apart_until(std::uint32_t a, std::uint32_t b) const {
   return until < end ? until : infinity;
 }
 
+/// Returns true for two balls in exact flight, straight on relative to each other, that sense each other and
+/// do not touch.
 bool PairCertifier::are_within_in_flight(std::uint32_t a, std::uint32_t b) const {
   if (!bodies().sensors.any()) return false;
   const Body &one = bodies()[a], &other = bodies()[b];
@@ -66,8 +68,7 @@ double PairCertifier::within_in_flight_until(std::uint32_t a, std::uint32_t b) c
   for_each_threshold(a, b, [&](const Threshold& threshold) {
     const auto stays_for = [&] {
       if (threshold.is_turned) return 0.0;
-      if (threshold.within)
-        return pair.parting(threshold.distance + contacts().rule().release_gap(), margin);
+      if (threshold.within) return pair.parting(threshold.distance + contacts().rule().release_gap(), margin);
       const bool is_near = pair.is_near(threshold.distance + tolerance);
       if (!is_near) return pair.meeting(infinity, threshold.distance + margin);
       const bool only_approaches = !threshold.sensed && !wants_ends(threshold.wanted);
@@ -80,7 +81,7 @@ double PairCertifier::within_in_flight_until(std::uint32_t a, std::uint32_t b) c
 
 double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {
   if (are_within_in_flight(a, b)) return bodies().may_meet(a, b) ? within_in_flight_until(a, b) : infinity;
-  const double end = horizon(a, b);
+  const double end = earlier_own_time(a, b);
   double first = infinity;
   if (!bodies().may_meet(a, b)) return first;
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& other) {

@@ -7,11 +7,12 @@
 #include <optional>
 
 #include "contact/contact_predictor.hpp"
-#include "number/infinity.hpp"
 #include "processor/world_state.hpp"
 
 namespace kinesphere {
 
+/// What is certain of two bodies says nothing beyond the own time of either (core::Ball::own), when they are
+/// searched for each other again.
 class PairCertifier {
  public:
   PairCertifier(const WorldState& state, double time) : state_(state), time_(time) {}
@@ -20,14 +21,6 @@ class PairCertifier {
   double own_time(std::uint32_t number) const { return state_.core.balls()[number].own; }
   double earlier_own_time(std::uint32_t a, std::uint32_t b) const {
     return std::min(own_time(a), own_time(b));
-  }
-  /// Returns true for two balls in exact flight, straight on relative to each other, that sense each other
-  /// and do not touch. One time says all of them, and they are linked wherever they fly.
-  bool are_within_in_flight(std::uint32_t a, std::uint32_t b) const;
-  /// Returns how far ahead one looks at two bodies: until the own time of either, when they are searched for
-  /// each other again; without end if are_within_in_flight().
-  double horizon(std::uint32_t a, std::uint32_t b) const {
-    return are_within_in_flight(a, b) ? infinity : earlier_own_time(a, b);
   }
 
   bool are_linked(std::uint32_t a, std::uint32_t b) const { return contacts().are_linked(a, b); }
@@ -43,13 +36,14 @@ class PairCertifier {
   /// response has just parted them.
   bool bounce_apart(std::uint32_t a, std::uint32_t b) const;
   /// Returns the time before which no threshold of the two is crossed, by the contact rules; +infinity if
-  /// none is before horizon(). Valid for linked and unlinked pairs.
+  /// none is before the own time of either. Valid for linked and unlinked pairs.
   double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;
   /// Returns the time before which the body neither touches nor leaves a wall; the current time if it touches
   /// one. Precondition: the world has walls.
   double walls_unchanged_until(std::uint32_t number) const;
 
  private:
+  bool are_within_in_flight(std::uint32_t a, std::uint32_t b) const;
   double within_in_flight_until(std::uint32_t a, std::uint32_t b) const;
   double apart_until_in_order(std::uint32_t a, std::uint32_t b, double end) const;
   std::optional<double> apart_by_balls(std::uint32_t a, std::uint32_t b, double end) const;

@@ -62,7 +62,7 @@ double EventProcessor::note_rates(RelativeLimits& limits, std::initializer_list<
 /// nullopt if an event must be delivered first.
 std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t b) {
   const PairCertifier certifier = this->certifier();
-  const double end = certifier.horizon(a, b);
+  const double end = certifier.earlier_own_time(a, b);
   RelativeLimits sum{bodies()[a].bound.growth_speed + bodies()[b].bound.growth_speed,
                      bodies().largest_acceleration(a) + bodies().largest_acceleration(b)};
   const double until = bodies().radii.any() ? note_rates(sum, {a, b}, end) : end;
