@@ -14,7 +14,7 @@
 #include "contact/contact_rate.hpp"
 #include "contact/contact_rule.hpp"
 #include "contact/overlap_records.hpp"
-#include "contact/pair_records.hpp"
+#include "contact/pair_notes.hpp"
 #include "contact/partner_list.hpp"
 
 namespace kinesphere {
@@ -98,8 +98,8 @@ class ContactGraph {
     return touch(a, b) || overlap(a, b) || pairs_.are_turned(a, b);
   }
   /// Returns what is remembered of pairs beside.
-  const PairRecords& pairs() const { return pairs_; }
-  PairRecords& pairs() { return pairs_; }
+  const PairNotes& pairs() const { return pairs_; }
+  PairNotes& pairs() { return pairs_; }
   /// Begins or ends the contact or overlap that the event names, between two bodies or a body and a wall. No
   /// event is queued.
   void set_touching(const Event& contact, bool touching);
@@ -179,7 +179,7 @@ class ContactGraph {
   std::vector<Flags> flags_;
   std::vector<PartnerList> partners_;  ///< by body, up to the last body that ever had a partner
   OverlapRecords overlaps_;
-  PairRecords pairs_;
+  PairNotes pairs_;
   bool numbers_in_tags_ = false;
 };
 

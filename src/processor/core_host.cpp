@@ -110,7 +110,7 @@ std::span<const std::uint32_t> EventProcessor::linked_with(std::uint32_t ball) {
     next = std::partition_point(next, overlaps.end(),
                                 [=](const OverlapRecord& overlap) { return overlap.partner <= partner; });
   }
-  for (const PairRecord& record : contacts().pairs().of(ball))
+  for (const PairNote& record : contacts().pairs().of(ball))
     if (record.is_turned()) partners_.push_back(record.partner);
   std::sort(partners_.begin(), partners_.end());
   partners_.erase(std::unique(partners_.begin(), partners_.end()), partners_.end());

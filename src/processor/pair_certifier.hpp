@@ -60,7 +60,7 @@ void PairCertifier::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit v
     visit(contacts().contact_threshold(a, b, bodies().wanted_of(a, b)));
   if (!bodies().sensors.any()) return;
   const OverlapRecords::List crossed = contacts().overlaps_of(a, b);
-  const PairRecord* const record = contacts().pairs().find(a, b);
+  const PairNote* const record = contacts().pairs().find(a, b);
   const auto sensed = [&](bool within, double distance) {
     visit(Threshold{.within = within,
                     .distance = distance,

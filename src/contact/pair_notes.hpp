@@ -1,4 +1,4 @@
-// PairRecords holds what is remembered of pairs of bodies beside their contacts and overlaps: the caller's
+// PairNotes holds what is remembered of pairs of bodies beside their contacts and overlaps: the caller's
 // state of the pair, and the sensor distance at which a response has turned the two back.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace kinesphere {
 
-struct PairRecord {
+struct PairNote {
   std::uint32_t partner = 0;
   std::int32_t state = 0;  ///< World::set_pair_state()
   /// The two have come to this sensor distance (length) and have been turned back. They may still be a little
@@ -18,26 +18,26 @@ struct PairRecord {
   double turned_at = -1.0;
 
   bool is_turned() const { return turned_at >= 0.0; }
-  friend bool operator==(const PairRecord&, const PairRecord&) = default;
+  friend bool operator==(const PairNote&, const PairNote&) = default;
 };
 
-/// Each of the two bodies has the record of the other, as long as there is something to remember. A body that
+/// Each of the two bodies has the note of the other, as long as there is something to remember. A body that
 /// never had one costs no memory, or 24 bytes if a body with a larger number had one. Cost of each call:
-/// O(records of a body).
-class PairRecords {
+/// O(notes of a body).
+class PairNotes {
  public:
-  std::span<const PairRecord> of(std::uint32_t body) const {
-    return body < lists_.size() ? std::span<const PairRecord>(lists_[body]) : std::span<const PairRecord>();
+  std::span<const PairNote> of(std::uint32_t body) const {
+    return body < lists_.size() ? std::span<const PairNote>(lists_[body]) : std::span<const PairNote>();
   }
   /// Returns nullptr if nothing is remembered of the two.
-  const PairRecord* find(std::uint32_t a, std::uint32_t b) const;
+  const PairNote* find(std::uint32_t a, std::uint32_t b) const;
   std::int32_t state(std::uint32_t a, std::uint32_t b) const {
-    const PairRecord* const record = find(a, b);
-    return record != nullptr ? record->state : 0;
+    const PairNote* const note = find(a, b);
+    return note != nullptr ? note->state : 0;
   }
   bool are_turned(std::uint32_t a, std::uint32_t b) const {
-    const PairRecord* const record = find(a, b);
-    return record != nullptr && record->is_turned();
+    const PairNote* const note = find(a, b);
+    return note != nullptr && note->is_turned();
   }
   bool has_turned(std::uint32_t body) const;
 
@@ -49,14 +49,14 @@ class PairRecords {
   void forget(std::uint32_t body);
 
   static void serialize(auto& self, auto& archive) { archive(self.lists_); }
-  /// Validates records that were read from bytes, for a world of `bodies` bodies.
+  /// Validates notes that were read from bytes, for a world of `bodies` bodies.
   bool is_valid(std::size_t bodies) const;
 
  private:
-  void keep(std::uint32_t a, std::uint32_t b, const PairRecord& record);
-  void keep_half(std::uint32_t body, const PairRecord& record);
+  void keep(std::uint32_t a, std::uint32_t b, const PairNote& note);
+  void keep_half(std::uint32_t body, const PairNote& note);
 
-  std::vector<std::vector<PairRecord>> lists_;  ///< by body, up to the last one that ever had a record
+  std::vector<std::vector<PairNote>> lists_;  ///< by body, up to the last one that ever had a note
 };
 
 }  // namespace kinesphere
