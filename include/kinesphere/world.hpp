@@ -327,7 +327,8 @@ class World {
   /// velocities that the caller gives them, and have not crossed the sensor distance. They stay on the side
   /// of it from which they came, though their gap may still be a little beyond it; when they are back, no
   /// event tells so. If they move on across the distance before, as another body hits them, the event comes
-  /// again. No effect if one of the two is disabled or they no longer sense each other at that distance.
+  /// again. No effect if the two still move on across the distance, if one of them is disabled, or if they no
+  /// longer sense each other at that distance.
   /// Errors: out_of_range for another event than such a crossing at the present time.
   Result<void> turn_back(const Event& crossing);
 

@@ -192,6 +192,12 @@ void EventProcessor::turn_back(const Event& crossing) {
     return overlap.distance == crossing.distance;
   });
   if (is_within != (crossing.kind == EventKind::sensor_enter)) return;
+  // Two that move on would cross the distance again at this instant, for ever.
+  const Sphere first = sphere(a), second = sphere(b);
+  Event now = crossing;
+  describe(now, first, second, bodies().space());
+  const double onward = is_within ? now.approach_speed : -now.approach_speed;
+  if (onward > approach_error(now, first, second)) return;
   contacts().turn_back(crossing);
   events_.changed().emplace_back(a, b);
 }

@@ -101,8 +101,8 @@ class alignas(128) EventProcessor final : public core::Host {
   /// Sets the angular velocity of a rigid body from the current time on.
   void set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity);
   /// The two of this event, a crossing of a sensor distance that has been delivered, have not crossed it: a
-  /// response has turned them back. No effect if they are not both there, or no longer sense each other at
-  /// this distance.
+  /// response has turned them back. No effect if they are not both there, no longer sense each other at this
+  /// distance, or move on across it.
   void turn_back(const Event& crossing);
   /// Ends the contacts of the body and takes it out of the core: the body is about to be removed or disabled.
   void detach(std::uint32_t number);

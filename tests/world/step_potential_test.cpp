@@ -439,6 +439,16 @@ TEST(StepPotential, IsAskedForAtCrossingsOnly) {
             "sensor_leave");
 }
 
+/// A response that says so of two whom it has not turned: they have crossed the distance.
+TEST(StepPotential, TurnsNobodyWhoMovesOn) {
+  Fluid pair(open_space, square_well(0.5, 1.0), head_on(2.0, 1.0));
+  std::size_t events = 0;
+  const auto lie = [&](const Event& event) -> Response { return {.turned_back = is_of_sensor(event.kind)}; };
+  pair.world.run(10.0, pair.source, lie, [&](const Event&) { ++events; }).value();
+  EXPECT_EQ(events, 3u) << "they pass through each other";
+  EXPECT_TRUE(pair.world.sensor_overlaps(pair.world.bodies()[0]).value().empty());
+}
+
 TEST(PairStates, EndWithTheirBodies) {
   Fluid pair(open_space, square_well(0.5, 1.0), head_on(2.0, 1.0));
   const auto ids = pair.world.bodies();
