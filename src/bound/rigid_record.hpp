@@ -28,6 +28,10 @@ struct RigidRecord {
   double origin_time = 0.0;
   bool is_changed = false;  ///< `rotation` is from before the last change, until the next report
 
+  /// Returns true for a ball around the position of the body.
+  bool is_round() const {
+    return parts.size() == 1 && parts[0].more.empty() && parts[0].a == Vec3{} && parts[0].b == Vec3{};
+  }
   bool keeps_spin() const { return angular_acceleration_limit == 0.0; }
   /// Returns the largest angular speed until the next change (radians / time).
   double spin() const {

@@ -101,6 +101,39 @@ Bounce bounce(const Event& contact, double first_mass, double second_mass, doubl
                  both_speeds(contact, contact.repeated ? 1.0 : restitution));
 }
 
+Bounce bounce(const Event& contact, const Roughness& rough) {
+  const Vec3& normal = contact.normal;
+  const bool is_wall = contact.second == no_body;
+  const auto inverse = [](const BodyTraits& traits, double mass) {
+    return stays(traits) || std::isinf(mass) ? 0.0 : 1.0 / divisible(mass);
+  };
+  const double first = inverse(contact.first_traits, contact.first_mass);
+  const double second = is_wall ? 0.0 : inverse(contact.second_traits, contact.second_mass);
+  Bounce after{contact.first_state.velocity, contact.second_state.velocity, contact.first_angular_velocity,
+               contact.second_angular_velocity};
+  if (!(first + second > 0.0) || !(contact.approach_speed > 0.0)) return after;
+  // From each centre to the contact.
+  const double first_radius = dot(contact.point - contact.first_state.position, normal);
+  const double second_radius = is_wall ? 0.0 : dot(contact.second_state.position - contact.point, normal);
+  const Vec3 relative =
+      contact.first_state.velocity - contact.second_state.velocity +
+      cross(contact.first_angular_velocity * first_radius + contact.second_angular_velocity * second_radius,
+            normal);
+  const Vec3 sliding = relative - normal * dot(relative, normal);
+  const double along = both_speeds(contact, contact.repeated ? 1.0 : rough.restitution) / (first + second);
+  const double sticks = (1.0 + rough.tangential_restitution) * rough.inertia / (1.0 + rough.inertia) *
+                        norm(sliding) / (first + second);
+  const double across = std::min(sticks, rough.friction * along);
+  const Vec3 tangent = across > 0.0 ? sliding / norm(sliding) * across : Vec3{};
+  const Vec3 impulse = normal * along + tangent;
+  after.first_velocity -= impulse * first;
+  after.second_velocity += impulse * second;
+  const Vec3 turn = cross(normal, tangent);
+  if (first > 0.0) after.first_angular_velocity -= turn * (first / (rough.inertia * first_radius));
+  if (second > 0.0) after.second_angular_velocity -= turn * (second / (rough.inertia * second_radius));
+  return after;
+}
+
 Bounce settle(const Event& contact, double restitution, double resting_speed) {
   return settle(contact, contact.first_mass, contact.second_mass, restitution, resting_speed);
 }
@@ -125,8 +158,10 @@ Response response_of(const Event& contact, const Bounce& after) {
     response.first_velocity = after.first_velocity;
   if (contact.second != no_body && !stays(contact.second_traits) && !std::isinf(contact.second_mass))
     response.second_velocity = after.second_velocity;
-  if (contact.first_spin_gain != Vec3{}) response.first_angular_velocity = after.first_angular_velocity;
-  if (contact.second_spin_gain != Vec3{}) response.second_angular_velocity = after.second_angular_velocity;
+  if (after.first_angular_velocity != contact.first_angular_velocity)
+    response.first_angular_velocity = after.first_angular_velocity;
+  if (after.second_angular_velocity != contact.second_angular_velocity)
+    response.second_angular_velocity = after.second_angular_velocity;
   return response;
 }
 

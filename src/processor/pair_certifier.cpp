@@ -98,7 +98,7 @@ double PairCertifier::walls_unchanged_until(std::uint32_t number) const {
   const Bound& bound = bodies()[number].bound;
   const double end = own_time(number);
   const double outer = until_reports_of_walls(contacts().rule(), bound, *bodies().walls(), time_, end);
-  if (outer > time_ || !bodies()[number].is_rigid) return outer;
+  if (outer > time_ || !bodies()[number].has_parts()) return outer;
   // The ball around a rigid body may reach beyond a wall that its parts do not touch.
   double first = infinity;
   const Box near = walls_in_reach(contacts().rule(), bound, *bodies().walls(), time_, end);
