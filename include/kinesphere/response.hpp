@@ -65,10 +65,10 @@ struct Roughness {
 
 /// Returns the velocities and angular velocities after a bounce of rough bodies: balls that turn
 /// (World::add_rigid_body() with one part, a ball around the position), walls, and static bodies, which keep
-/// their velocity and do not turn. Momentum and angular momentum are conserved; with both restitutions 1,
-/// energy is. A ball that does not turn, of World::add(), cannot be given an angular velocity: run() refuses
-/// it by name. Source: Walton, in Particulate Two-Phase Flow (1993), ch. 25; Luding, Granular Matter 10, 235
-/// (2008).
+/// their velocity and do not turn. Momentum is conserved, angular momentum to the contact tolerance; with
+/// both restitutions 1, energy is. A ball that does not turn, of World::add(), cannot be given an angular
+/// velocity: run() refuses it by name. Source: Walton, in Particulate Two-Phase Flow (1993), ch. 25; Luding,
+/// Granular Matter 10, 235 (2008).
 [[nodiscard]] Bounce bounce(const Event& contact, const Roughness& rough);
 
 /// Like bounce(), for bodies that settle in a heap. A `repeated` contact loses energy too, but no two

@@ -88,12 +88,10 @@ class QuickReject {
     return !(norm_squared(offset_) > radii * radii);
   }
 
-  /// True if the relative motion is on a straight line, and the radii do not grow.
-  bool is_straight() const { return acceleration_ == Vec3{} && speed_ == 0.0 && growth_ == 0.0; }
-
   /// Returns a time d before which the bodies stay within `distance`, less the margin, of each other; 0 if
-  /// that is unknown. Precondition: is_straight(). The distance of two points that go straight on is a convex
-  /// function (two_that_go_straight_stay_within): a time is guessed, and then tried.
+  /// that is unknown. Precondition: they go straight on relative to each other, and do not grow. The distance
+  /// of two such points is a convex function (two_that_go_straight_stay_within): a time is guessed, and then
+  /// tried.
   double parting(double distance, double margin) const {
     const double reach = radii_ + distance - margin;
     const double room = reach * reach - norm_squared(offset_);

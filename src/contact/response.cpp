@@ -112,9 +112,11 @@ Bounce bounce(const Event& contact, const Roughness& rough) {
   Bounce after{contact.first_state.velocity, contact.second_state.velocity, contact.first_angular_velocity,
                contact.second_angular_velocity};
   if (!(first + second > 0.0) || !(contact.approach_speed > 0.0)) return after;
-  // From each centre to the contact.
-  const double first_radius = dot(contact.point - contact.first_state.position, normal);
-  const double second_radius = is_wall ? 0.0 : dot(contact.second_state.position - contact.point, normal);
+  // The gap is within the tolerance, and not theirs.
+  const double gap = is_wall ? contact.gap : 0.5 * contact.gap;
+  const double first_radius = dot(contact.point - contact.first_state.position, normal) - gap;
+  const double second_radius =
+      is_wall ? 0.0 : dot(contact.second_state.position - contact.point, normal) - gap;
   const Vec3 relative =
       contact.first_state.velocity - contact.second_state.velocity +
       cross(contact.first_angular_velocity * first_radius + contact.second_angular_velocity * second_radius,
