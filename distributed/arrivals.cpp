@@ -141,7 +141,7 @@ Result<void> DistributedWorld::RankEngine::start_arrivals() {
     arrivals.push_back(&record);
     const Bound& bound = record.body.bound;
     exact += bound.is_exact() ? 1 : 0;
-    shaped += record.shape.empty() && record.rigid.empty() ? 0 : 1;
+    shaped += record.body.is_shaped() ? 1 : 0;
     growing += bound.is_exact() ? 0 : 1;
     drifting += bound.planned_acceleration != Vec3{} || bound.growth_speed != 0.0 ? 1 : 0;
   }

@@ -31,7 +31,7 @@ std::uint32_t install(const BodyRecord& record, Bodies& bodies, ContactGraph& co
   body = record.body;
   body.generation = generation;
   body.shape_number = body.change_number = body.sleep_number = Body::none;
-  body.is_rigid = body.carries_shape = false;
+  body.is_rigid = body.is_round = body.carries_shape = false;
   for (const Shape& shape : record.shape) bodies.give_shape(number, shape, true);
   for (const RigidRecord& rigid : record.rigid) bodies.make_rigid(number, rigid);
   bodies.filters.keep(number, record.filter);

@@ -38,9 +38,12 @@ enum class EventKind : std::uint8_t {
   /// A sleeping body (World::sleep) is awake again, at its place; it is probed from now on. These events
   /// precede the remaining events of their instant.
   woke,
+  /// A timer of the caller's own (World::schedule). It names no body, and Event::first_user_data is that of
+  /// the timer.
+  timer,
 };
 /// Number of event kinds.
-inline constexpr int event_kind_count = 9;
+inline constexpr int event_kind_count = 10;
 
 /// Returns true for events at a sensor distance (Event::distance).
 constexpr bool is_of_sensor(EventKind kind) {
@@ -77,9 +80,9 @@ struct BodyTraits {
 struct Event {
   EventKind kind = EventKind::contact_begin;
   double time = 0.0;
-  /// The body of the event or, for a pair, the body with the smaller id.
+  /// The body of the event or, for a pair, the body with the smaller id; no_body for a timer.
   BodyId first = no_body;
-  /// The other body of a pair; no_body for wall events, bound violations and bodies that woke.
+  /// The other body of a pair; no_body for wall events, bound violations, bodies that woke and timers.
   BodyId second = no_body;
   /// The wall of a wall event; Wall::none for all other events.
   Wall wall = Wall::none;
@@ -127,7 +130,8 @@ struct Event {
   double velocity_excess = 0.0;
   /// sensor_enter and sensor_leave: the sensor distance that the gap has crossed (length).
   double distance = 0.0;
-  /// BodyDefinition::user_data of the two bodies, also of removed bodies; 0 for a wall or no_body.
+  /// BodyDefinition::user_data of the two bodies, also of removed bodies; 0 for a wall or no_body. Of a
+  /// timer, the first is Timer::user_data.
   std::uint64_t first_user_data = 0;
   std::uint64_t second_user_data = 0;
   /// BodyDefinition::mass of the two bodies; infinity for a static body and for a wall; 1 for no_body.
@@ -140,6 +144,9 @@ struct Event {
   std::uint32_t second_part = 0;
   Vec3 first_angular_velocity{};
   Vec3 second_angular_velocity{};
+  /// The state that the caller has given the two bodies of a pair (World::set_pair_state); 0 for all others,
+  /// and where one of the two has been removed.
+  std::int32_t pair_state = 0;
   /// Change of the angular velocity of a rigid body by a unit impulse along the normal at the point (radians
   /// / (mass length)), from RigidBody::inertia; zero for all other bodies.
   Vec3 first_spin_gain{};

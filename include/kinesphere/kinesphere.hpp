@@ -38,6 +38,8 @@
 #include "kinesphere/sensor.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/simulation.hpp"
+#include "kinesphere/step_potential.hpp"
+#include "kinesphere/timer.hpp"
 #include "kinesphere/to_string.hpp"
 #include "kinesphere/vec3.hpp"
 #include "kinesphere/version.hpp"

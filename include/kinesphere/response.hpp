@@ -11,6 +11,8 @@
 // for ever.
 #pragma once
 
+#include <limits>
+
 #include "kinesphere/event.hpp"
 #include "kinesphere/run.hpp"
 
@@ -46,6 +48,29 @@ struct Bounce {
 /// 0. Finite input therefore gives finite velocities.
 [[nodiscard]] Bounce bounce(const Event& contact, double first_mass, double second_mass, double restitution);
 
+/// How rough spheres or discs bounce: Walton's model of three parameters.
+struct Roughness {
+  /// Normal restitution in [0, 1], as for the bounce() above.
+  double restitution = 1.0;
+  /// Tangential restitution in [-1, 1] of a contact that sticks: what is left of the tangential velocity of
+  /// the surfaces there, turned back. -1 is smooth, and 1 loses no energy.
+  double tangential_restitution = 1.0;
+  /// Coulomb's coefficient of friction (>= 0): a contact slides whose tangential impulse would be more than
+  /// this times the normal one.
+  double friction = std::numeric_limits<double>::infinity();
+  /// Moment of inertia of each body about its diameter, in units of its mass and squared radius (> 0): 2/5
+  /// for solid spheres, 2/3 for hollow ones, 1/2 for discs.
+  double inertia = 0.4;
+};
+
+/// Returns the velocities and angular velocities after a bounce of rough bodies: balls that turn
+/// (World::add_rigid_body() with one part, a ball around the position), walls, and static bodies, which keep
+/// their velocity and do not turn. Momentum is conserved, angular momentum to the contact tolerance; with
+/// both restitutions 1, energy is. A ball that does not turn, of World::add(), cannot be given an angular
+/// velocity: run() refuses it by name. Source: Walton, in Particulate Two-Phase Flow (1993), ch. 25; Luding,
+/// Granular Matter 10, 235 (2008).
+[[nodiscard]] Bounce bounce(const Event& contact, const Roughness& rough);
+
 /// Like bounce(), for bodies that settle in a heap. A `repeated` contact loses energy too, but no two
 /// bodies separate more slowly than with `resting_speed` (> 0) or, in a contact that is not repeated or has
 /// restitution 1, than their approach speed. Nothing stops entirely: a settled heap keeps making tiny hops
@@ -58,8 +83,8 @@ struct Bounce {
                             double resting_speed);
 
 /// Returns the response, for World::run(), that gives the bodies of the contact these velocities. It leaves
-/// out walls, static bodies, sleeping ones and those whose mass in the event is infinite. Rigid bodies that
-/// the contact turns get their angular velocities, too.
+/// out walls, static bodies, sleeping ones and those whose mass in the event is infinite. Bodies that the
+/// contact turns get their angular velocities, too.
 [[nodiscard]] Response response_of(const Event& contact, const Bounce& after);
 
 /// Returns sqrt(3 contact_tolerance acceleration): the speed of a body that falls from the outer edge of

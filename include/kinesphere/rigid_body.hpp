@@ -85,7 +85,8 @@ struct RigidBody {
   /// the limits are those of its motion. The radius is replaced by that of the ball around it that contains
   /// all parts. `position_error` and `velocity_error` hold for every point of the body.
   BodyDefinition body{};
-  /// At least one.
+  /// At least one. One part alone that is a ball around the position is a ball that turns: it meets others as
+  /// a ball of World::add() does, and as fast.
   std::vector<RigidPart> parts{};
   /// Rotation at the world's current time.
   Rotation rotation{};

@@ -82,6 +82,11 @@ struct Response {
   /// remove the body there (BodyMap::remove_gone).
   BodyAction first_action = BodyAction::none;
   BodyAction second_action = BodyAction::none;
+  /// sensor_enter, sensor_leave: the two have been turned back at the sensor distance (World::turn_back), as
+  /// at a step of a potential that they have not the energy to pass. Of no other event.
+  bool turned_back = false;
+  /// The state of the pair from now on (World::set_pair_state). Only for events of two bodies.
+  std::optional<std::int32_t> pair_state{};
   /// The world stops at this event, so that the sink can change it: when the sink receives the event,
   /// World::time() is the time of the event, and every call is allowed that a loop over World::advance() may
   /// make at a stop, but for advance(), events() and run(). So the sink adds bodies, to the world and to its

@@ -50,6 +50,7 @@
 #include "kinesphere/run.hpp"
 #include "kinesphere/sensor.hpp"
 #include "kinesphere/shape.hpp"
+#include "kinesphere/timer.hpp"
 #include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
@@ -315,6 +316,32 @@ class World {
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
   /// Returns the sensor of a class; without distances if it has none.
   const Sensor& sensor(SensorClass sensor_class) const;
+
+  /// Gives two bodies a state: a number of the caller's own, which the events of the two have
+  /// (Event::pair_state), for instance a bond. It stays until it is set to 0 or one of the two is removed.
+  /// Errors: out_of_range if the two are one body. Cost: O(states of the two), and 32 bytes a pair.
+  Result<void> set_pair_state(BodyId first, BodyId second, std::int32_t state);
+  /// Returns that state; 0 if it was never set.
+  Result<std::int32_t> pair_state(BodyId first, BodyId second) const;
+  /// To be called at the stop of a sensor_enter or sensor_leave: the two have been turned back there, by
+  /// velocities that the caller gives them, and have not crossed the sensor distance. They stay on the side
+  /// of it from which they came, though their gap may still be a little beyond it; when they are back, no
+  /// event tells so. If they move on across the distance before, as another body hits them, the event comes
+  /// again. No effect if the two still move on across the distance, if one of them is disabled, or if they no
+  /// longer sense each other at that distance.
+  /// Errors: out_of_range for another event than such a crossing at the present time.
+  Result<void> turn_back(const Event& crossing);
+
+  /// Schedules an event of the caller's own, EventKind::timer, which advance() and run() return at its time,
+  /// after all other events of that time and before anything later. Timers of one time come in the order in
+  /// which they were scheduled or last came. Bodies that the caller changes at a timer are changed at exactly
+  /// that time; in run(), the response asks for a stop (Response::stop) there. Errors: probe_in_progress;
+  /// time_backwards for a time that has passed; not_finite or out_of_range for the time or the period. Cost:
+  /// O(log n) for n timers.
+  Result<void> schedule(const Timer& timer);
+  /// Removes all timers with these data that are still to come. Returns how many there were. Errors:
+  /// probe_in_progress. Cost: O(n) for n timers.
+  Result<std::size_t> unschedule(std::uint64_t user_data);
 
   /// Returns BodyDefinition::user_data; cheaper than body(). Cost: O(1).
   Result<std::uint64_t> user_data(BodyId body) const;

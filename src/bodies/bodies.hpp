@@ -56,7 +56,7 @@ class Bodies {
   void make_rigid(std::uint32_t number, RigidRecord record) { rigid.add(table_[number], std::move(record)); }
   void remove(std::uint32_t number);
   /// Returns true if there has never been a body that is not a ball.
-  bool are_balls() const { return shapes.empty() && rigid.empty(); }
+  bool are_balls() const { return shapes.empty() && !rigid.with_parts(); }
 
   /// Returns the definition with the state of the last report and all pending changes.
   BodyDefinition definition_of(std::uint32_t number) const;
@@ -122,7 +122,7 @@ class Bodies {
     const double of_position =
         pending ? pending->limits.acceleration_limit + norm(pending->limits.planned_acceleration)
                 : body.largest_acceleration();
-    return of_position + (turning ? turning->surface_acceleration(body.radius) : 0.0);
+    return of_position + (body.has_parts() ? turning->surface_acceleration(body.radius) : 0.0);
   }
 
   /// Returns the contact events that a pair reports; for a body and its walls, `b` is the body again.

@@ -153,6 +153,7 @@ bool Bodies::rigid_body_is_valid(std::uint32_t number, double now) const {
   if (!body.is_rigid) return true;
   if (body.carries_shape || body.is_sleeping()) return false;
   const RigidRecord& record = rigid[body];
+  if (body.is_round != record.is_round() || !(body.is_round || rigid.with_parts())) return false;
   RigidBody made = rigid_body(*this, number);
   // A report may have broken the promise of the largest angular speed.
   made.rotation = {};
@@ -177,7 +178,7 @@ bool Bodies::radius_is_valid(std::uint32_t number, double now) const {
   unbounded.box.reset();
   return check_radius(grown, no_body, unbounded, "restore") &&
          check_limits(grown, no_body, unbounded, "restore") &&
-         check_radius_rate(changing->rate, no_body, "restore") && !body.is_shaped() &&
+         check_radius_rate(changing->rate, no_body, "restore") && !body.is_shaped() && !body.is_rigid &&
          !(body.is_sleeping() && changing->rate != 0.0) && changing->time >= -limits::largest_time &&
          changing->time <= now;
 }

@@ -30,8 +30,9 @@ struct Body {
   bool solid = true;
   ContactEvents contact_events = ContactEvents::all;  ///< 0 for a static body, which asks for nothing
   SensorClass sensor_class = 0;
-  bool carries_shape = false;          ///< its shape moves with it; a static body has one at rest
-  bool is_rigid = false;               ///< it has parts that turn with it (RigidBodies)
+  bool carries_shape = false;  ///< its shape moves with it; a static body has one at rest
+  bool is_rigid = false;       ///< it has parts that turn with it (RigidBodies)
+  bool is_round = false;       ///< it is rigid, and a ball: how it turns changes nothing of its surface
   std::uint32_t shape_number = none;   ///< index of the shape or of the rigid body; none for a ball
   std::uint32_t change_number = none;  ///< index of the pending change
   std::uint32_t generation = 0;
@@ -42,9 +43,11 @@ struct Body {
 
   bool present() const { return alive && enabled; }
   /// Returns true for a body that is not a ball.
-  bool is_shaped() const { return shape_number != none; }
+  bool is_shaped() const { return shape_number != none && !is_round; }
   /// Returns true for a body whose surface is that of a Shape, at rest or carried.
   bool has_shape() const { return is_shaped() && !is_rigid; }
+  /// Returns true for a rigid body whose parts are more than a ball around its position.
+  bool has_parts() const { return is_rigid && !is_round; }
   bool is_static() const { return has_shape() && !carries_shape; }
   bool is_sleeping() const { return sleep_number != none; }
   /// Sleeping, and with a report since it fell asleep. The bound then stands still.
@@ -67,10 +70,10 @@ struct Body {
 
   static void serialize(auto& self, auto& archive) {
     auto& [bound, revision, alive, enabled, dirty, relocated, turned, solid, contact_events, sensor_class,
-           carries_shape, is_rigid, shape_number, change_number, generation, sleep_number, radius,
+           carries_shape, is_rigid, is_round, shape_number, change_number, generation, sleep_number, radius,
            position_error, user_data] = self;
     archive(bound, revision, alive, enabled, dirty, relocated, turned, solid, contact_events, sensor_class,
-            carries_shape, is_rigid, shape_number, change_number, generation, sleep_number, radius,
+            carries_shape, is_rigid, is_round, shape_number, change_number, generation, sleep_number, radius,
             position_error, user_data);
   }
 };

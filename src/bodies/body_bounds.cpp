@@ -56,21 +56,22 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
   const Bound& bound = body.bound;
   const RigidRecord* const turning = bodies.rigid.find(body);
   const Size size = bodies.radii.any() ? changing_size(bodies, now, number) : Size{bound.radius, 0.0};
-  Sphere sphere{bodies.id_of(number),
-                size.radius,
-                {bound.centre_at(now), bound.velocity_at(now)},
-                bodies.shapes.empty() ? nullptr : collision_shape_of(bodies, number).shape,
-                body.carries_shape,
-                body.user_data,
-                bodies.masses.of(number),
-                traits_of(body),
-                body.contact_events,
-                turning,
-                size.rate,
-                body.carries_shape || body.is_rigid ? bound.radius - body.radius : 0.0,
-                turning ? turning->after_report(now - bound.time) : Rotation{},
-                bound.planned_acceleration,
-                bound.acceleration_limit + (turning ? turning->surface_acceleration(body.radius) : 0.0)};
+  Sphere sphere{
+      bodies.id_of(number),
+      size.radius,
+      {bound.centre_at(now), bound.velocity_at(now)},
+      bodies.shapes.empty() ? nullptr : collision_shape_of(bodies, number).shape,
+      body.carries_shape,
+      body.user_data,
+      bodies.masses.of(number),
+      traits_of(body),
+      body.contact_events,
+      body.has_parts() ? turning : nullptr,
+      size.rate,
+      body.carries_shape || body.has_parts() ? bound.radius - body.radius : 0.0,
+      turning ? turning->after_report(now - bound.time) : Rotation{},
+      bound.planned_acceleration,
+      bound.acceleration_limit + (body.has_parts() ? turning->surface_acceleration(body.radius) : 0.0)};
   const Space& space = bodies.space();
   if (space.repeats()) sphere.state.position = space.wrapped(sphere.state.position).position;
   return sphere;

@@ -28,8 +28,8 @@ Bound bound_with(const Bodies& bodies, std::uint32_t number, const BodyDefinitio
 inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t number, const Bound& bound) {
   const Body& body = bodies[number];
   if (!body.is_shaped()) return {bound};
-  if (body.is_rigid && bodies.rigid[body].is_changed) return {bound};
-  if (body.is_rigid) return {bound, false, nullptr, body.radius, &bodies.rigid[body]};
+  if (body.has_parts() && bodies.rigid[body].is_changed) return {bound};
+  if (body.has_parts()) return {bound, false, nullptr, body.radius, &bodies.rigid[body]};
   const Shape& shape = bodies.shapes.of(body);
   return body.carries_shape ? carried_shape_of(bound, shape, body.radius) : collision_shape_of(bound, shape);
 }
@@ -48,7 +48,7 @@ auto visit_pair(const Bodies& bodies, std::uint32_t a, std::uint32_t b, Visit vi
   if (bodies.space().repeats()) {
     Bound seen = bodies[b].bound;
     seen.position += shift_to_meet(bodies, a, b);
-    if (bodies.rigid.empty()) return visit(bodies[a].bound, seen);
+    if (!bodies.rigid.with_parts()) return visit(bodies[a].bound, seen);
     return visit_shapes(collision_shape_of(bodies, a), collision_shape_of(bodies, b, seen), visit);
   }
   if (bodies.are_balls()) return visit(bodies[a].bound, bodies[b].bound);

@@ -63,6 +63,10 @@ BodyDefinition body_of(const MovingShape& definition, const WorldDefinition& wor
 BodyDefinition body_of(const RigidBody& definition) {
   BodyDefinition body = definition.body;
   body.radius = 0.0;
+  if (is_round(definition.parts)) {
+    body.radius = definition.parts[0].radius;
+    return body;
+  }
   for (const RigidPart& part : definition.parts)
     body.radius = std::max(body.radius, outer_radius(part) * (1.0 + rounding::margin));
   return body;

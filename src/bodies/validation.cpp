@@ -362,6 +362,15 @@ Result<void> check_time(double until, double now) {
       .result();
 }
 
+Result<void> check_timer(const Timer& timer, double now) {
+  return InputCheck("schedule")
+      .within({"time"}, timer.time, limits::largest_time)
+      .require(timer.time >= now, ErrorCode::time_backwards, {"time"}, "must not lie before the current time",
+               now, timer.time)
+      .from_zero_to({"period"}, timer.period, limits::largest_time)
+      .result();
+}
+
 Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other,
                     std::string_view argument) {
   return {ErrorCode::overlapping, std::string(argument), other,

@@ -66,6 +66,7 @@ inline constexpr double not_said = std::numeric_limits<double>::quiet_NaN();
 inline constexpr State no_answer{{not_said, not_said, not_said}, {not_said, not_said, not_said}};
 inline constexpr Rotation no_rotation{{not_said, not_said, not_said, not_said}, {}};
 Result<void> check_time(double until, double now);
+Result<void> check_timer(const Timer& timer, double now);
 /// Returns the error of a call on a world that has been moved from.
 Error moved_from_error(std::string_view call);
 

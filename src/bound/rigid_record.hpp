@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <span>
 #include <tuple>
 #include <type_traits>
 #include <vector>
@@ -13,6 +14,11 @@
 
 namespace kinesphere {
 class HeapCounter;
+
+/// Returns true for the parts of a body that is a ball around its position.
+inline bool is_round(std::span<const RigidPart> parts) {
+  return parts.size() == 1 && parts[0].more.empty() && parts[0].a == Vec3{} && parts[0].b == Vec3{};
+}
 
 /// A rigid body, but for its position.
 struct RigidRecord {
@@ -28,6 +34,7 @@ struct RigidRecord {
   double origin_time = 0.0;
   bool is_changed = false;  ///< `rotation` is from before the last change, until the next report
 
+  bool is_round() const { return kinesphere::is_round(parts); }
   bool keeps_spin() const { return angular_acceleration_limit == 0.0; }
   /// Returns the largest angular speed until the next change (radians / time).
   double spin() const {

@@ -154,10 +154,14 @@ void describe_as_seen(Event& event, const Sphere& first, const Sphere& second, b
     describe_parts(event, first, second);
   } else if (!first.shape && !second.shape) {
     describe_spheres(event, first, second);
+    event.first_angular_velocity = first.rotation.angular_velocity;
+    event.second_angular_velocity = second.rotation.angular_velocity;
   } else if (first.shape && second.shape) {
     describe_surfaces(event, first, second, is_flat);
   } else {
     describe_surface(event, first.shape ? second : first, first.shape ? first : second);
+    event.first_angular_velocity = first.rotation.angular_velocity;
+    event.second_angular_velocity = second.rotation.angular_velocity;
   }
   event.approach_speed = approach_speed(event, first.radius_rate + second.radius_rate);
 }
@@ -201,6 +205,7 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
     const double distance = dot(inside.normal, sphere.state.position) - inside.offset;
     event.gap = distance - sphere.radius;
     event.point = sphere.state.position + event.normal * distance;
+    event.first_angular_velocity = sphere.rotation.angular_velocity;
   }
   event.approach_speed = approach_speed(event, sphere.radius_rate);
 }

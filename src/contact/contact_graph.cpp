@@ -43,12 +43,18 @@ void ContactGraph::set_touching(const Event& contact, bool touching) {
   if (is_of_sensor(contact.kind)) {
     set_overlap(a, b, contact, touching);
     set_overlap(b, a, contact, touching);
+    pairs_.set_turned(a, b, std::nullopt);
   } else {
     const ContactState* const known = contact_of(a, b);
     const ContactState state = known ? *known : ContactState{};
     set_half(a, b, touching ? &state : nullptr);
     set_half(b, a, touching ? &state : nullptr);
   }
+}
+
+void ContactGraph::turn_back(const Event& crossing) {
+  set_touching(crossing, crossing.kind == EventKind::sensor_leave);
+  pairs_.set_turned(number_of(crossing.first), number_of(crossing.second), crossing.distance);
 }
 
 void ContactGraph::set_state(const Event& contact, const ContactState& state) {
@@ -198,7 +204,8 @@ bool ContactGraph::contacts_are_valid(const std::optional<Box>& box) const {
 
 bool ContactGraph::is_valid(std::size_t bodies, const std::optional<Box>& box) const {
   return flags_.size() == bodies && rate_.size() == bodies && rate_.is_valid() &&
-         partners_.size() <= bodies && overlaps_.size() <= bodies && contacts_are_valid(box);
+         partners_.size() <= bodies && overlaps_.size() <= bodies && contacts_are_valid(box) &&
+         pairs_.is_valid(bodies);
 }
 
 }  // namespace kinesphere

@@ -14,6 +14,7 @@
 #include "contact/contact_rate.hpp"
 #include "contact/contact_rule.hpp"
 #include "contact/overlap_records.hpp"
+#include "contact/pair_notes.hpp"
 #include "contact/partner_list.hpp"
 
 namespace kinesphere {
@@ -92,9 +93,19 @@ class ContactGraph {
   bool overlap(std::uint32_t a, std::uint32_t b) const {
     return !overlaps_.of(flags_[a].is_static() ? b : a).empty() && !overlaps_of(a, b).empty();
   }
+  /// Returns true if the two touch, sense each other, or have been turned back at a sensor distance.
+  bool are_linked(std::uint32_t a, std::uint32_t b) const {
+    return touch(a, b) || overlap(a, b) || pairs_.are_turned(a, b);
+  }
+  /// Returns what is remembered of pairs beside.
+  const PairNotes& pairs() const { return pairs_; }
+  PairNotes& pairs() { return pairs_; }
   /// Begins or ends the contact or overlap that the event names, between two bodies or a body and a wall. No
   /// event is queued.
   void set_touching(const Event& contact, bool touching);
+  /// The two of this crossing of a sensor distance, which has taken effect, have been turned back: they are
+  /// as if they had not crossed it.
+  void turn_back(const Event& crossing);
   /// Sets the state of the contact that the event names. The contact begins if it does not exist.
   void set_state(const Event& contact, const ContactState& state);
   /// Marks all reported approaches of a body as turned, because the caller has given it another velocity,
@@ -127,8 +138,8 @@ class ContactGraph {
 
   /// Serializes everything except the rules and the space, which follow from the world's definition.
   static void serialize(auto& self, auto& archive) {
-    auto& [rule, space, recent, flags, partners, overlaps, in_tags] = self;
-    archive(recent, flags, partners, overlaps);
+    auto& [rule, space, recent, flags, partners, overlaps, pairs, in_tags] = self;
+    archive(recent, flags, partners, overlaps, pairs);
   }
   /// Validates a graph that was read from bytes, for a world of `bodies` bodies: contacts must be mutual,
   /// unique and not with the body itself. `box` holds the existing walls, as from walls_of().
@@ -168,6 +179,7 @@ class ContactGraph {
   std::vector<Flags> flags_;
   std::vector<PartnerList> partners_;  ///< by body, up to the last body that ever had a partner
   OverlapRecords overlaps_;
+  PairNotes pairs_;
   bool numbers_in_tags_ = false;
 };
 

@@ -59,6 +59,7 @@ EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall) {
 
 template <class Partner>
 double ContactPredictor<Partner>::until_reports() const {
+  if (threshold_.is_turned) return now_;
   const bool has_turned = threshold_.within && threshold_.state.approach == ApproachState::turned;
   if (has_turned && wants_approaches(threshold_.wanted)) return now_;
   bool may_begin = !threshold_.within || threshold_.is_watched();
@@ -167,7 +168,7 @@ double ContactPredictor<Partner>::separated(double gap, const RelativeLimits& li
 
 template <class Partner>
 std::optional<double> ContactPredictor<Partner>::next_check_if_apart() const {
-  if (threshold_.within) return std::nullopt;
+  if (threshold_.within || threshold_.is_turned) return std::nullopt;
   const Vec3 centre = bound_.centre_at(now_);
   double gap = 0.0;
   if constexpr (std::is_same_v<Partner, Bound>) {
@@ -182,11 +183,29 @@ std::optional<double> ContactPredictor<Partner>::next_check_if_apart() const {
   return std::max(meeting(0.0), just_after(now_));
 }
 
+/// Decides for two that have been turned back, and are still beyond the distance by this gap, on their way
+/// back: it is crossed if they move on. They are looked at again when they are back, or before they are
+/// noticeably farther away.
+template <class Partner>
+ContactDecision ContactPredictor<Partner>::decide_turned(double beyond, double approach_speed,
+                                                         double error) const {
+  using Change = ContactRule::Change;
+  const double onward = threshold_.within ? -approach_speed : approach_speed;
+  if (onward > error) return {.change = threshold_.within ? Change::end : Change::begin};
+  const double tolerance = rule_.tolerance(), farther = ContactRule::farther * tolerance;
+  const double next =
+      threshold_.within
+          ? std::min(meeting(ContactRule::back_inside * tolerance), separation(beyond + farther))
+          : std::min(meeting(beyond - farther), separation(ContactRule::back_outside * tolerance));
+  return {.next_check = std::max(next, just_after(now_))};
+}
+
 template <class Partner>
 ContactDecision ContactPredictor<Partner>::decide(const Event& current, const RelativeLimits& limits) const {
   ContactDecision decision;
   const double beyond = current.gap - threshold_.distance;
   const double error = approach_error(current, arm(current.gap)) + rate_error(limits.radius_rates);
+  if (threshold_.is_turned) return decide_turned(beyond, current.approach_speed, error);
   decision.change = rule_.decide(threshold_, beyond, current.approach_speed, error);
   if (decision.is_event()) return decision;
   const bool stays = threshold_.within && decision.change != ContactRule::Change::release;

@@ -89,6 +89,7 @@ class ContactPredictor {
   double until_separated() const { return std::max(separation(rule_.release_gap()), just_after(now_)); }
 
  private:
+  ContactDecision decide_turned(double beyond, double approach_speed, double error) const;
   double meeting(double gap) const;
   double separation(double gap) const {
     return earliest_separation(bound_, partner_, now_, horizons_.separation, gap + threshold_.distance);

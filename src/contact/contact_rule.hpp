@@ -15,6 +15,9 @@ struct Threshold {
   bool within;
   double distance = 0.0;
   bool sensed = false;
+  /// The two have come to this distance and have been turned back (ContactGraph::turn_back()): they may still
+  /// be beyond it, on their way back. Then they cross it only if they move on away from where they came from.
+  bool is_turned = false;
   ContactEvents wanted = ContactEvents::begin_and_end;
   /// State of the contact, if `within`. A sensor overlap has the state of a contact that was reported.
   ContactState state{.approach = ApproachState::reported};
@@ -42,6 +45,13 @@ class ContactRule {
   bool is_approach(double gap, double approach_speed, double approach_error) const {
     return approach_speed > (step_breaks_tolerance(gap) ? 0.0 : approach_error);
   }
+
+  /// Of a threshold at which two have been turned back: true if they are back where they came from, a gap of
+  /// at most the tolerance from the distance or, if they came from outside, a larger one.
+  bool is_back(const Threshold& turned, double gap) const { return (gap <= tolerance_) == turned.within; }
+  /// Gaps from the distance, in tolerances, that two who have been turned back have certainly not reached
+  /// until they are next looked at: on the side that they come from, and so much farther on the other.
+  static constexpr double back_inside = 0.5, back_outside = 1.5, farther = 0.125;
 
   /// Contact tolerance (length).
   double tolerance() const { return tolerance_; }

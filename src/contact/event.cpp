@@ -8,7 +8,7 @@ namespace kinesphere {
 std::string_view name_of(EventKind kind) {
   static constexpr std::array<std::string_view, event_kind_count> names{
       "bound_violation", "contact_begin", "contact_end",  "wall_begin", "wall_end",
-      "zeno_guard",      "sensor_enter",  "sensor_leave", "woke"};
+      "zeno_guard",      "sensor_enter",  "sensor_leave", "woke",       "timer"};
   return names[static_cast<std::size_t>(kind)];
 }
 

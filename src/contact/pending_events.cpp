@@ -149,6 +149,8 @@ bool PendingEvents::is_valid(std::size_t bodies, double time, const std::optiona
       case EventKind::sensor_enter:
       case EventKind::sensor_leave:
         return pair && event.distance >= 0.0;
+      case EventKind::timer:
+        return false;
     }
     return false;
   };

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "contact/rebound.hpp"
+
 namespace kinesphere {
 namespace {
 
@@ -37,18 +39,25 @@ double inverse_mass(double mass, const Vec3& gain, const Vec3& arm, const Vec3& 
   return (std::isinf(mass) ? 0.0 : 1.0 / divisible(mass)) + dot(gain, cross(arm, normal));
 }
 
+/// Returns that of each body of an event; 0 for those that do not move.
+std::array<double, 2> inverse_masses(const Event& event, double first_mass, double second_mass) {
+  const Vec3& normal = event.normal;
+  const double first =
+      stays(event.first_traits)
+          ? 0.0
+          : inverse_mass(first_mass, event.first_spin_gain, event.point - event.first_state.position, normal);
+  const bool is_alone = event.second == no_body;
+  const double second = is_alone || stays(event.second_traits)
+                            ? 0.0
+                            : inverse_mass(second_mass, event.second_spin_gain,
+                                           event.point - event.second_state.position, normal);
+  return {first, second};
+}
+
 /// Returns velocities as rebound() does, for a contact that turns a rigid body.
 Bounce rebound_with_spin(const Event& contact, double first_mass, double second_mass, double speed) {
   const Vec3& normal = contact.normal;
-  const bool is_wall = contact.second == no_body;
-  const double first = stays(contact.first_traits)
-                           ? 0.0
-                           : inverse_mass(first_mass, contact.first_spin_gain,
-                                          contact.point - contact.first_state.position, normal);
-  const double second = is_wall || stays(contact.second_traits)
-                            ? 0.0
-                            : inverse_mass(second_mass, contact.second_spin_gain,
-                                           contact.point - contact.second_state.position, normal);
+  const auto [first, second] = inverse_masses(contact, first_mass, second_mass);
   Bounce after{contact.first_state.velocity, contact.second_state.velocity, contact.first_angular_velocity,
                contact.second_angular_velocity};
   if (!(first + second > 0.0)) return after;
@@ -64,7 +73,8 @@ Bounce rebound_with_spin(const Event& contact, double first_mass, double second_
   return after;
 }
 
-/// Returns velocities that change the relative velocity along the normal by `speed`.
+}  // namespace
+
 Bounce rebound(const Event& contact, double first_mass, double second_mass, double speed) {
   if (contact.first_spin_gain != Vec3{} || contact.second_spin_gain != Vec3{})
     return rebound_with_spin(contact, first_mass, second_mass, speed);
@@ -77,7 +87,10 @@ Bounce rebound(const Event& contact, double first_mass, double second_mass, doub
   return {contact.first_state.velocity - change * first, contact.second_state.velocity + change * second};
 }
 
-}  // namespace
+double inverse_effective_mass(const Event& event) {
+  const auto [first, second] = inverse_masses(event, event.first_mass, event.second_mass);
+  return first + second;
+}
 
 Bounce bounce(const Event& contact, double restitution) {
   return bounce(contact, contact.first_mass, contact.second_mass, restitution);
@@ -86,6 +99,41 @@ Bounce bounce(const Event& contact, double restitution) {
 Bounce bounce(const Event& contact, double first_mass, double second_mass, double restitution) {
   return rebound(contact, first_mass, second_mass,
                  both_speeds(contact, contact.repeated ? 1.0 : restitution));
+}
+
+Bounce bounce(const Event& contact, const Roughness& rough) {
+  const Vec3& normal = contact.normal;
+  const bool is_wall = contact.second == no_body;
+  const auto inverse = [](const BodyTraits& traits, double mass) {
+    return stays(traits) || std::isinf(mass) ? 0.0 : 1.0 / divisible(mass);
+  };
+  const double first = inverse(contact.first_traits, contact.first_mass);
+  const double second = is_wall ? 0.0 : inverse(contact.second_traits, contact.second_mass);
+  Bounce after{contact.first_state.velocity, contact.second_state.velocity, contact.first_angular_velocity,
+               contact.second_angular_velocity};
+  if (!(first + second > 0.0) || !(contact.approach_speed > 0.0)) return after;
+  // The gap is within the tolerance, and not theirs.
+  const double gap = is_wall ? contact.gap : 0.5 * contact.gap;
+  const double first_radius = dot(contact.point - contact.first_state.position, normal) - gap;
+  const double second_radius =
+      is_wall ? 0.0 : dot(contact.second_state.position - contact.point, normal) - gap;
+  const Vec3 relative =
+      contact.first_state.velocity - contact.second_state.velocity +
+      cross(contact.first_angular_velocity * first_radius + contact.second_angular_velocity * second_radius,
+            normal);
+  const Vec3 sliding = relative - normal * dot(relative, normal);
+  const double along = both_speeds(contact, contact.repeated ? 1.0 : rough.restitution) / (first + second);
+  const double sticks = (1.0 + rough.tangential_restitution) * rough.inertia / (1.0 + rough.inertia) *
+                        norm(sliding) / (first + second);
+  const double across = std::min(sticks, rough.friction * along);
+  const Vec3 tangent = across > 0.0 ? sliding / norm(sliding) * across : Vec3{};
+  const Vec3 impulse = normal * along + tangent;
+  after.first_velocity -= impulse * first;
+  after.second_velocity += impulse * second;
+  const Vec3 turn = cross(normal, tangent);
+  if (first > 0.0) after.first_angular_velocity -= turn * (first / (rough.inertia * first_radius));
+  if (second > 0.0) after.second_angular_velocity -= turn * (second / (rough.inertia * second_radius));
+  return after;
 }
 
 Bounce settle(const Event& contact, double restitution, double resting_speed) {
@@ -112,8 +160,10 @@ Response response_of(const Event& contact, const Bounce& after) {
     response.first_velocity = after.first_velocity;
   if (contact.second != no_body && !stays(contact.second_traits) && !std::isinf(contact.second_mass))
     response.second_velocity = after.second_velocity;
-  if (contact.first_spin_gain != Vec3{}) response.first_angular_velocity = after.first_angular_velocity;
-  if (contact.second_spin_gain != Vec3{}) response.second_angular_velocity = after.second_angular_velocity;
+  if (after.first_angular_velocity != contact.first_angular_velocity)
+    response.first_angular_velocity = after.first_angular_velocity;
+  if (after.second_angular_velocity != contact.second_angular_velocity)
+    response.second_angular_velocity = after.second_angular_velocity;
   return response;
 }
 

@@ -146,11 +146,10 @@ Result<double> Core::recheck(std::uint32_t number, std::uint32_t other, Host& ho
   ++host.work_counters(number).pair_checks;
   const Ball &ball = balls_[number], &partner = balls_[other];
   const auto is_plain = [](const Ball& each) { return each.is(Ball::plain) && !each.is(Ball::linked); };
-  // What the host says holds as long as both stay in their safe regions.
   const auto ask_host = [&]() -> Result<double> {
     const Result<double> until = host.recheck(number, other);
     if (!until) return until.error();
-    return std::min(*until, partner.own);
+    return std::min(*until, holds_until(number, other));
   };
   if (!is_plain(ball) || !is_plain(partner)) return ask_host();
   const double now = balls_.time();
@@ -184,7 +183,7 @@ Result<void> Core::handle_own(std::uint32_t number, Host& host) {
   if (!until) return until.error();
   again.dismiss();
   limit_own(number, *until);
-  schedule(number, false, host);
+  schedule_anew(number, host);
   return {};
 }
 

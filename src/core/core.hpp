@@ -10,6 +10,7 @@
 //      one, has no list: it is in those of others.
 //   D  Of two neighbours, the one whose velocity or safe region has changed last looks out for the other: it
 //      has computed Ball::due since, and the two do not touch before it. No ball is due after its own time.
+//      A ball in exact flight that stays in its safe region for longer than it knew has changed, too.
 //
 // By H, two balls that touch are in safe regions within reach of each other, or one of the two is due. By N
 // they are neighbours then, and by D one of the two is due no later than they touch.
@@ -188,6 +189,8 @@ class Core {
   Result<void> handle_own(std::uint32_t number, Host& host);
   Result<double> recheck(std::uint32_t number, std::uint32_t other, Host& host);
   void postpone(std::uint32_t number, double time);
+  void schedule_anew(std::uint32_t number, Host& host);
+  double holds_until(std::uint32_t number, std::uint32_t other) const;
   void prefetch() const;
 
   // scan.cpp

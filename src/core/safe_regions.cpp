@@ -68,7 +68,7 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
   const double stay = stays(number);
   if (stay > stay_worth_keeping * (balls_.time() - ball.time) + 0x1p-40 * std::abs(balls_.time())) {
     set_own_later(number, stay, host);
-    schedule(number, false, host);
+    schedule_anew(number, host);
     return {};
   }
   const double radius = std::min(double{ball.region} * unit_, widest_region(ball));

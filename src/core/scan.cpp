@@ -30,6 +30,7 @@ void Core::schedule(std::uint32_t number, bool is_last, Host& host) {
   ball.about = none;
   ball.due = ball.second = ball.own;
   const auto neighbours = lists_.at(ball.list);
+  const auto linked = ball.is(Ball::linked) ? host.linked_with(number) : std::span<const std::uint32_t>();
   Counters& work = host.work_counters(number);
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     std::array<std::uint32_t, most_lanes> room;
@@ -45,19 +46,35 @@ void Core::schedule(std::uint32_t number, bool is_last, Host& host) {
       if (!(until > balls_.time())) {
         ball.set(Ball::crowded, true);
         balls_[other].set(Ball::crowded, true);
-        until = std::min(host.unchanged_until(number, other), balls_[other].own);
+        if (std::binary_search(linked.begin(), linked.end(), other)) continue;
+        until = std::min(host.unchanged_until(number, other), holds_until(number, other));
       }
       ++work.certificates;
       if (until < ball.own) ++work.hot_pairs;
       consider(ball, other, until);
     }
   }
-  if (ball.is(Ball::linked))
-    for (const std::uint32_t other : host.linked_with(number))
-      if (changes_[other] <= changes_[number])
-        consider(ball, other, std::min(host.unchanged_until(number, other), balls_[other].own));
+  for (const std::uint32_t other : linked) {
+    if (changes_[other] > changes_[number]) continue;
+    ++work.certificates;
+    consider(ball, other, std::min(host.unchanged_until(number, other), holds_until(number, other)));
+  }
   queue_.push(balls_.all(), number);
   note_course(number);
+}
+
+/// Computes when a ball is due that has a later own time than before.
+void Core::schedule_anew(std::uint32_t number, Host& host) {
+  const bool looks_out_for_all = balls_.is_exact(number);
+  if (looks_out_for_all) note_change(number, host);
+  schedule(number, looks_out_for_all, host);
+}
+
+/// Returns how long it holds what the host says of a ball and one that it looks out for, which is that
+/// nothing happens before a time or the own time of either: until the own time of the other one. If that one
+/// is in exact flight, it looks out for the ball from then on (schedule_anew()).
+double Core::holds_until(std::uint32_t number, std::uint32_t other) const {
+  return balls_.is_exact(number) && balls_.is_exact(other) ? infinity : balls_[other].own;
 }
 
 /// Returns those of some neighbours that a ball looks out for, as they have not changed since it did. The

@@ -22,7 +22,11 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
     }
     if (auto recertified = main_.recertify(); !recertified) return recertified.error();
     if (!main_.events().pending().empty()) continue;
-    const double next = std::min(main_.pause(), main_.next_time(until));
+    const double next = std::min(state_.spot_checks.next(), main_.next_time(until));
+    if (state_.timers.next() < next && state_.timers.next() <= until) {
+      main_.advance_clock(state_.timers.next());
+      return std::optional(main_.take_timer());
+    }
     if (next > until) {
       main_.advance_clock(until);
       return std::optional<Event>();
@@ -35,7 +39,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
 /// Handles all that is due at this instant, and what is due later as long as no event is known
 /// (EventProcessor::gather).
 Result<void> World::Engine::gather(double until) {
-  if (main_.pause() <= time()) {
+  if (state_.spot_checks.next() <= time()) {
     if (auto checked = spot_check(); !checked) return checked;
   }
   if (auto recertified = main_.recertify(); !recertified) return recertified;

@@ -17,7 +17,7 @@ namespace {
 
 /// Raise the version if the fields change, or if the engine would continue differently from the same fields.
 constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                                  30,
+                                  31,
                                   "world",
                                   "World::restore",
                                   "snapshot",
@@ -30,7 +30,8 @@ Error refusal(const std::string& what) { return world_envelope.refusal(what); }
 template <class Self, class Archive>
 void World::Engine::serialize(Self& self, Archive& archive) {
   // The definition comes first, since an engine is constructed from it. The tag is omitted (BodyId::world).
-  archive(self.state_.bodies, self.state_.contacts, self.state_.spot_checks, self.main_, self.state_.core);
+  archive(self.state_.bodies, self.state_.contacts, self.state_.spot_checks, self.state_.timers, self.main_,
+          self.state_.core);
 }
 
 std::vector<std::byte> World::Engine::save() const {
@@ -77,17 +78,20 @@ const char* World::Engine::first_invalid_part() const {
       !shape_contacts_are_valid())
     return "contacts";
   if (!state_.spot_checks.is_valid(time())) return "spot checks";
+  if (!state_.timers.is_valid(time())) return "timers";
   if (!main_.knows_valid_times()) return "certificates";
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
     const Body& body = bodies()[number];
     const bool takes_part = body.present();
     const bool registered = is_registered(number);
+    if (!body.alive && !contacts().pairs().of(number).empty()) return "contacts";
     if (body.alive && !contacts().has_form_of(number, body.has_shape(), body.is_static())) return "contacts";
     if (takes_part ? !registered && !bodies()[number].dirty : registered) return "safe regions";
     if (takes_part && !core().can_hold(body.bound, time()) && !core().reports_now(number, time()))
       return "safe regions";
     if (registered && body.is_static() && box_end(number) != infinity) return "safe regions";
-    if (!takes_part && (!contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty()))
+    if (!takes_part && (!contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty() ||
+                        contacts().pairs().has_turned(number)))
       return "contacts";
     if (!(takes_part && bodies().meets_walls(number)) && contacts().walls_of(number) != 0) return "contacts";
   }

@@ -89,6 +89,7 @@ void World::WorldEditor::remove(BodyId id) {
   if (bodies()[number].is_sleeping()) sleeping().resume(number);
   sleeping().wake(number);
   main_.detach(number);
+  state_.contacts.pairs().forget(number);
   state_.bodies.remove(number);
 }
 
@@ -98,7 +99,9 @@ void World::WorldEditor::replace(std::uint32_t number, const Bound& bound) {
   if (const Body& body = bodies()[number]; body.is_rigid) {
     RigidRecord turned = bodies().rigid[body];
     if (bound.time == time()) turned.change(turned.at(time()), time(), true);
-    end_contacts_outside(number, {bound, false, nullptr, body.radius, &turned});
+    const CollisionShape ball{bound};
+    end_contacts_outside(number,
+                         body.is_round ? ball : CollisionShape{bound, false, nullptr, body.radius, &turned});
     state_.bodies.rigid[body] = std::move(turned);
   } else {
     end_contacts_outside(number, {bound});

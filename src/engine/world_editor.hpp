@@ -50,6 +50,12 @@ class World::WorldEditor {
   void set_shape(BodyId id, const Shape& shape);
   void set_mass(BodyId id, double mass) { state_.bodies.masses.keep(id.index, mass); }
   void set_user_data(BodyId id, std::uint64_t data) { state_.bodies[id.index].user_data = data; }
+  void set_pair_state(BodyId first, BodyId second, std::int32_t state) {
+    state_.contacts.pairs().set_state(first.index, second.index, state);
+  }
+  void turn_back(const Event& crossing) { main_.turn_back(crossing); }
+  void schedule(const Timer& timer) { state_.timers.add(timer); }
+  std::size_t unschedule(std::uint64_t user_data) { return state_.timers.remove(user_data); }
 
  private:
   const Bodies& bodies() const { return state_.bodies; }

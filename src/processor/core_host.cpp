@@ -35,8 +35,8 @@ bool EventProcessor::rebuild_core() {
 void EventProcessor::set_kind_in_core(std::uint32_t number) {
   const Body& body = bodies()[number];
   const bool touches_walls = contacts().walls_of(number) != 0;
-  const bool is_linked =
-      touches_walls || !contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty();
+  const bool is_linked = touches_walls || !contacts().partners_of(number).empty() ||
+                         !contacts().overlaps_of(number).empty() || contacts().pairs().has_turned(number);
   const bool is_plain = !body.is_shaped() && !body.is_sleeping() && body.change_number == Body::none &&
                         sensor_reach(bodies(), number) == 0.0 && bodies().radii.find(number) == nullptr;
   core().set_kind(number, is_linked, touches_walls, is_plain);
@@ -110,6 +110,8 @@ std::span<const std::uint32_t> EventProcessor::linked_with(std::uint32_t ball) {
     next = std::partition_point(next, overlaps.end(),
                                 [=](const OverlapRecord& overlap) { return overlap.partner <= partner; });
   }
+  for (const PairNote& record : contacts().pairs().of(ball))
+    if (record.is_turned()) partners_.push_back(record.partner);
   std::sort(partners_.begin(), partners_.end());
   partners_.erase(std::unique(partners_.begin(), partners_.end()), partners_.end());
   return partners_;

@@ -53,8 +53,13 @@ std::optional<Event> EventProcessor::pop() {
       contacts(), is_there, [this](std::uint32_t number) { return sphere(number); },
       [this](const Event& enter) { return senses_in(enter); }, bodies().walls());
   if (!event) return event;
+  if (event->second != no_body) {
+    if (is_there(event->first) && is_there(event->second))
+      event->pair_state = contacts().pairs().state(bodies().table().number_of(event->first),
+                                                   bodies().table().number_of(event->second));
+    event->second = bodies().table().tagged(event->second);
+  }
   event->first = bodies().table().tagged(event->first);
-  if (event->second != no_body) event->second = bodies().table().tagged(event->second);
   Counters& counters = counters_of(bodies().table().number_of(event->first));
   ++counters.events[static_cast<std::size_t>(event->kind)];
   if (!bodies().sleep_records.empty()) Sleeping(*state_, *this).wake_by(*event);
@@ -62,6 +67,11 @@ std::optional<Event> EventProcessor::pop() {
   if (event->jammed) ++counters.jammed_contacts;
   if (reports_.profile() != nullptr) reports_.profile()->note_event(bodies().table(), *event);
   return event;
+}
+
+Event EventProcessor::take_timer() {
+  ++counters_.events[static_cast<std::size_t>(EventKind::timer)];
+  return {.kind = EventKind::timer, .time = time_, .first_user_data = state_->timers.take()};
 }
 
 /// Counts probes. They are counted first, so that a probe that throws leaves the same state as one that gives
@@ -168,7 +178,28 @@ void EventProcessor::detach(std::uint32_t number) {
   Body& body = bodies()[number];
   ++body.revision;
   body.mark_recertified();
+  contacts().pairs().forget_turns(number);
   if (core().contains(number)) core().leave(number);
+}
+
+void EventProcessor::turn_back(const Event& crossing) {
+  const std::uint32_t a = bodies().table().number_of(crossing.first);
+  const std::uint32_t b = bodies().table().number_of(crossing.second);
+  if (!bodies()[a].present() || !bodies()[b].present() || !bodies().may_meet(a, b)) return;
+  if (senses_in(crossing) == Senses::neither) return;
+  const auto overlaps = contacts().overlaps_of(a, b);
+  const bool is_within = std::any_of(overlaps.begin(), overlaps.end(), [&](const OverlapRecord& overlap) {
+    return overlap.distance == crossing.distance;
+  });
+  if (is_within != (crossing.kind == EventKind::sensor_enter)) return;
+  // Two that move on would cross the distance again at this instant, for ever.
+  const Sphere first = sphere(a), second = sphere(b);
+  Event now = crossing;
+  describe(now, first, second, bodies().space());
+  const double onward = is_within ? now.approach_speed : -now.approach_speed;
+  if (onward > approach_error(now, first, second)) return;
+  contacts().turn_back(crossing);
+  events_.changed().emplace_back(a, b);
 }
 
 void EventProcessor::note_response() {

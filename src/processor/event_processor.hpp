@@ -100,6 +100,10 @@ class alignas(128) EventProcessor final : public core::Host {
   void set_velocity(std::uint32_t number, const Vec3& velocity);
   /// Sets the angular velocity of a rigid body from the current time on.
   void set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity);
+  /// The two of this event, a crossing of a sensor distance that has been delivered, have not crossed it: a
+  /// response has turned them back. No effect if they are not both there, no longer sense each other at this
+  /// distance, or move on across it.
+  void turn_back(const Event& crossing);
   /// Ends the contacts of the body and takes it out of the core: the body is about to be removed or disabled.
   void detach(std::uint32_t number);
 
@@ -120,8 +124,10 @@ class alignas(128) EventProcessor final : public core::Host {
   /// come.
   Result<SpotChecks::Census> spot_check_due(std::span<const std::uint32_t> numbers, std::uint64_t probes);
 
-  /// Time before which what is due is handled without a pause: the next spot check.
-  double pause() const { return state_->spot_checks.next(); }
+  /// Time before which what is due is handled without a pause: the next spot check or timer.
+  double pause() const { return std::min(state_->spot_checks.next(), state_->timers.next()); }
+  /// Takes the next timer out, whose time is the present one. Returns its event.
+  Event take_timer();
 
   /// Serializes all fields of a snapshot.
   static void serialize(auto& self, auto& archive) {
@@ -183,6 +189,7 @@ class alignas(128) EventProcessor final : public core::Host {
   double note_rates(RelativeLimits& limits, std::initializer_list<std::uint32_t> numbers, double end) const;
   std::optional<double> decide_pair(std::uint32_t a, std::uint32_t b);
   std::optional<double> decide_walls(std::uint32_t number);
+  bool note_return(const Threshold& turned, std::uint32_t a, std::uint32_t b);
   template <class Partner, class EventNow>
   std::optional<double> decide(const ContactPredictor<Partner>& predictor, const Threshold& threshold,
                                const RelativeLimits& limits, Counters& work, EventNow event_now);

@@ -33,7 +33,7 @@ std::optional<BodyId> Overlaps::of_body(BodyId id, const CollisionShape& shape,
     const CollisionShape partner = collision_shape_of(bodies_, other);
     const bool certain =
         other != id.index && !(shape.is_static && body.is_static()) &&
-        body.is_rigid == (partner.rigid != nullptr) && certainly_overlap(bodies_, now_, shape, partner) &&
+        body.has_parts() == (partner.rigid != nullptr) && certainly_overlap(bodies_, now_, shape, partner) &&
         bodies_.filters.may_touch(id, definition, bodies_.id_of(other), bodies_.definition_of(other));
     if (certain && (!found || other < found->index)) found = bodies_.id_of(other);
   }

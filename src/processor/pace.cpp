@@ -37,7 +37,8 @@ PromisedWay longest_way(const Bodies& bodies, double step) {
       const auto& [argument, promised] = promises[k];
       consider(promised * (k < 2 ? by_acceleration : step), promised, argument);
     }
-    if (const RigidRecord* const turning = bodies.rigid.find(bodies[number]))
+    if (const RigidRecord* const turning = bodies.rigid.find(bodies[number]);
+        turning != nullptr && bodies[number].has_parts())
       consider(turning->surface_acceleration(bodies[number].radius) * by_acceleration, turning->spin(),
                turning->keeps_spin() ? "angular_velocity" : "largest_angular_speed");
   }

@@ -44,7 +44,43 @@ double PairCertifier::apart_until(std::uint32_t a, std::uint32_t b) const {
   return until < end ? until : infinity;
 }
 
+/// Returns true for two balls in exact flight, straight on relative to each other, that sense each other and
+/// do not touch.
+bool PairCertifier::are_within_in_flight(std::uint32_t a, std::uint32_t b) const {
+  if (!bodies().sensors.any()) return false;
+  const Body &one = bodies()[a], &other = bodies()[b];
+  const auto is_ball = [](const Body& body) { return !body.is_shaped() && !body.is_static(); };
+  return one.bound.is_exact() && other.bound.is_exact() && is_ball(one) && is_ball(other) &&
+         one.bound.planned_acceleration == other.bound.planned_acceleration && !bodies().radii.any() &&
+         contacts().overlap(a, b) && !contacts().touch(a, b);
+}
+
+/// Computes unchanged_until_by_thresholds() for two that are are_within_in_flight().
+double PairCertifier::within_in_flight_until(std::uint32_t a, std::uint32_t b) const {
+  if (bodies().table().comes_before(b, a)) std::swap(a, b);
+  const BoundAt one(bodies()[a].bound, time_);
+  BoundAt other(bodies()[b].bound, time_);
+  if (bodies().space().repeats()) other.centre += shift_to_meet(bodies(), a, b);
+  const QuickReject pair(one, other);
+  const bool recede = recede_for_good(State{one.centre, one.velocity}, State{other.centre, other.velocity});
+  const double margin = rounding_margin(bodies().definition()), tolerance = contacts().rule().tolerance();
+  double first = infinity;
+  for_each_threshold(a, b, [&](const Threshold& threshold) {
+    const auto stays_for = [&] {
+      if (threshold.is_turned) return 0.0;
+      if (threshold.within) return pair.parting(threshold.distance + contacts().rule().release_gap(), margin);
+      const bool is_near = pair.is_near(threshold.distance + tolerance);
+      if (!is_near) return pair.meeting(infinity, threshold.distance + margin);
+      const bool only_approaches = !threshold.sensed && !wants_ends(threshold.wanted);
+      return only_approaches && recede ? infinity : 0.0;
+    };
+    first = std::min(first, std::max(rounding::sum_down(time_, stays_for()), time_));
+  });
+  return first;
+}
+
 double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {
+  if (are_within_in_flight(a, b)) return bodies().may_meet(a, b) ? within_in_flight_until(a, b) : infinity;
   const double end = earlier_own_time(a, b);
   double first = infinity;
   if (!bodies().may_meet(a, b)) return first;
@@ -62,7 +98,7 @@ double PairCertifier::walls_unchanged_until(std::uint32_t number) const {
   const Bound& bound = bodies()[number].bound;
   const double end = own_time(number);
   const double outer = until_reports_of_walls(contacts().rule(), bound, *bodies().walls(), time_, end);
-  if (outer > time_ || !bodies()[number].is_rigid) return outer;
+  if (outer > time_ || !bodies()[number].has_parts()) return outer;
   // The ball around a rigid body may reach beyond a wall that its parts do not touch.
   double first = infinity;
   const Box near = walls_in_reach(contacts().rule(), bound, *bodies().walls(), time_, end);

@@ -23,10 +23,7 @@ class PairCertifier {
     return std::min(own_time(a), own_time(b));
   }
 
-  /// Returns true if the two touch or sense each other.
-  bool are_linked(std::uint32_t a, std::uint32_t b) const {
-    return contacts().touch(a, b) || contacts().overlap(a, b);
-  }
+  bool are_linked(std::uint32_t a, std::uint32_t b) const { return contacts().are_linked(a, b); }
   /// Calls visit(threshold) for each threshold that two bodies can cross next: their contact, the next sensor
   /// distance inward, and the next one outward. Precondition: the two may meet.
   template <class Visit>
@@ -39,13 +36,15 @@ class PairCertifier {
   /// response has just parted them.
   bool bounce_apart(std::uint32_t a, std::uint32_t b) const;
   /// Returns the time before which no threshold of the two is crossed, by the contact rules; +infinity if
-  /// never. Valid for linked and unlinked pairs.
+  /// none is before the own time of either. Valid for linked and unlinked pairs.
   double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;
   /// Returns the time before which the body neither touches nor leaves a wall; the current time if it touches
   /// one. Precondition: the world has walls.
   double walls_unchanged_until(std::uint32_t number) const;
 
  private:
+  bool are_within_in_flight(std::uint32_t a, std::uint32_t b) const;
+  double within_in_flight_until(std::uint32_t a, std::uint32_t b) const;
   double apart_until_in_order(std::uint32_t a, std::uint32_t b, double end) const;
   std::optional<double> apart_by_balls(std::uint32_t a, std::uint32_t b, double end) const;
   const Bodies& bodies() const { return state_.bodies; }
@@ -61,10 +60,17 @@ void PairCertifier::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit v
     visit(contacts().contact_threshold(a, b, bodies().wanted_of(a, b)));
   if (!bodies().sensors.any()) return;
   const OverlapRecords::List crossed = contacts().overlaps_of(a, b);
+  const PairNote* const record = contacts().pairs().find(a, b);
+  const auto sensed = [&](bool within, double distance) {
+    visit(Threshold{.within = within,
+                    .distance = distance,
+                    .sensed = true,
+                    .is_turned = record != nullptr && record->turned_at == distance});
+  };
   if (const auto next =
           bodies().sensors.next_inward(sensing_of(bodies(), a), sensing_of(bodies(), b), crossed))
-    visit(Threshold{.within = false, .distance = *next, .sensed = true});
-  if (!crossed.empty()) visit(Threshold{.within = true, .distance = crossed.back().distance, .sensed = true});
+    sensed(false, *next);
+  if (!crossed.empty()) sensed(true, crossed.back().distance);
 }
 
 }  // namespace kinesphere

@@ -69,8 +69,9 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
   std::optional<double> next = infinity;
   Counters& work = counters_of(a);
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
-    certifier.for_each_threshold(a, b, [&](const Threshold& threshold) {
+    certifier.for_each_threshold(a, b, [&](Threshold threshold) {
       ++work.certificates;
+      if (threshold.is_turned) threshold.is_turned = !note_return(threshold, a, b);
       const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {until, end},
                                        sum.excess_growth);
       const auto known =
@@ -80,6 +81,14 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
   });
   if (next && until < end) next = std::min(*next, until);
   return next;
+}
+
+/// Returns true, and forgets that the two have been turned back, if they are back where they came from.
+bool EventProcessor::note_return(const Threshold& turned, std::uint32_t a, std::uint32_t b) {
+  const double gap = contact(EventKind::zeno_guard, a, b).gap - turned.distance;
+  if (!contacts().rule().is_back(turned, gap)) return false;
+  contacts().pairs().set_turned(a, b, std::nullopt);
+  return true;
 }
 
 /// Applies the contact rule to fresh reports. Queues the events that result. Returns the time before which

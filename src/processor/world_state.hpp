@@ -5,6 +5,7 @@
 #include "contact/contact_graph.hpp"
 #include "core/core.hpp"
 #include "processor/spot_checks.hpp"
+#include "processor/timers.hpp"
 
 namespace kinesphere {
 
@@ -15,6 +16,7 @@ struct WorldState {
   Bodies bodies;
   ContactGraph contacts;
   SpotChecks spot_checks;
+  Timers timers;
   core::Core core;  ///< finds what is due
 };
 

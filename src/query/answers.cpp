@@ -101,7 +101,7 @@ void World::Engine::Answers::consider_walls(std::uint32_t number, ContactBoundar
 /// Returns the collision shape of a body with another bound. That of a rigid body whose state has changed
 /// since its last report is the ball around it.
 CollisionShape World::Engine::Answers::shape_of(std::uint32_t number, const Bound& bound) const {
-  if (body(number).is_rigid && bound.time != body(number).bound.time) return {bound};
+  if (body(number).has_parts() && bound.time != body(number).bound.time) return {bound};
   return collision_shape_of(engine_.bodies(), number, bound);
 }
 
@@ -271,7 +271,7 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
   // radii.
   // A rigid body that counts as a ball has a point within that ball only.
   const auto missing = [this](std::uint32_t number, const CollisionShape& extent) {
-    return body(number).is_rigid && !extent.rigid ? body(number).radius : 0.0;
+    return body(number).has_parts() && !extent.rigid ? body(number).radius : 0.0;
   };
   const double excess = (first.radius - body(a).radius) + (second.radius - body(b).radius) +
                         missing(a, extent_of_a) + missing(b, extent_of_b);
@@ -310,7 +310,7 @@ void World::Engine::Answers::consider_approach_to_walls(std::uint32_t number, do
     });
     // The upper limit applies to the body as reported. The true body may differ by the error part of the
     // radius.
-    const double missing = body(number).is_rigid && !shape.rigid ? body(number).radius : 0.0;
+    const double missing = body(number).has_parts() && !shape.rigid ? body(number).radius : 0.0;
     const double excess = 2.0 * (bound.radius - body(number).radius + missing);
     const bool within =
         time <= now_ && rounding::sum_up(gap_to_wall(shape, inside, now_).upper, excess) <= distance;

@@ -159,7 +159,7 @@ class World::Engine::Audit {
     check_overlaps(b, a);
     if (!engine_.bodies().may_meet(a, b) || !is_certified(a, b)) return;
     engine_.main().certifier().for_each_threshold(a, b, [&](const Threshold& threshold) {
-      check_threshold(a, b, threshold);
+      if (!threshold.is_turned) check_threshold(a, b, threshold);
       if (threshold.is_watched()) check_threshold(a, b, next_approach(threshold));
     });
   }
@@ -285,7 +285,7 @@ class World::Engine::Audit {
   /// bodies without ends, or in touch, follows the contact rule instead.
   bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     // PlainGap knows the gaps of balls alone, to each other and to shapes.
-    if (!exact(a) || !exact(b) || body(a).is_rigid || body(b).is_rigid) return false;
+    if (!exact(a) || !exact(b) || body(a).has_parts() || body(b).has_parts()) return false;
     if (has_faces(a) && has_faces(b)) return false;
     const ContactRule& rule = engine_.contacts().rule();
     return threshold.within || wants_ends(threshold.wanted) ||

@@ -24,7 +24,7 @@ inline CertainSphere certain_sphere_of(const Body& body, double now) {
   const double size =
       norm_one(bound.position) + (norm_one(bound.velocity) + norm_one(bound.planned_acceleration) * s) * s;
   const double deviation = outer - body.radius + rounding::margin * (size + outer);
-  const double contained = body.is_rigid ? -body.radius : body.radius;
+  const double contained = body.has_parts() ? -body.radius : body.radius;
   return {bound.centre_at(now), body.radius + deviation, contained - deviation};
 }
 

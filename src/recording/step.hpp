@@ -85,6 +85,51 @@ using SetAngularVelocity = Set<Vec3, &BodyChange::angular_velocity>;
 using SetRadiusRate = Set<double, &BodyChange::radius_rate>;
 using SetRotation = Set<Rotation, &BodyChange::rotation>;
 
+struct SetPairState {
+  BodyId first{};
+  BodyId second{};
+  std::int32_t state = 0;
+
+  Result<void> repeat(World& world) const { return world.set_pair_state(first, second, state); }
+};
+
+/// Two bodies were turned back at a sensor distance. It holds what of the event matters.
+struct TurnBack {
+  EventKind kind{};
+  BodyId first{};
+  BodyId second{};
+  Senses senses{};
+  double distance = 0.0;
+
+  static TurnBack of(const Event& crossing) {
+    return {crossing.kind, crossing.first, crossing.second, crossing.senses, crossing.distance};
+  }
+  Result<void> repeat(World& world) const {
+    return world.turn_back({.kind = kind,
+                            .time = world.time(),
+                            .first = first,
+                            .second = second,
+                            .senses = senses,
+                            .distance = distance});
+  }
+};
+
+/// A timer that was scheduled.
+struct Schedule {
+  Timer timer{};
+
+  Result<void> repeat(World& world) const { return world.schedule(timer); }
+};
+/// All timers with these data were removed.
+struct Unschedule {
+  std::uint64_t user_data = 0;
+
+  Result<void> repeat(World& world) const {
+    const auto removed = world.unschedule(user_data);
+    return removed ? Result<void>() : Result<void>(removed.error());
+  }
+};
+
 /// Change of the pair filter. A predicate is code and cannot be recorded, so this holds only whether there is
 /// one.
 struct SetPairFilter {
@@ -134,7 +179,8 @@ using Step =
                  step::SetPairFilter, step::RefreshFilter, step::SetSolid, step::SetSensor,
                  step::SetSensorClass, step::SetUserData, step::End, step::SleepBody, step::Wake,
                  step::SetShape, step::SetMass, step::AddMovingShape, step::AddRigidBody,
-                 step::SetAngularVelocity, step::SetRotation, step::SetRadiusRate, step::SetRotationProbe>;
+                 step::SetAngularVelocity, step::SetRotation, step::SetRadiusRate, step::SetRotationProbe,
+                 step::Schedule, step::Unschedule, step::SetPairState, step::TurnBack>;
 
 /// Running hash over the outcomes of all steps so far: events to the last bit, and all work counters.
 class StepHash {

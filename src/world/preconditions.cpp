@@ -193,7 +193,7 @@ WorldDefinition World::Preconditions::domain_of(bool has_shape) const {
 Result<void> World::Preconditions::moved(BodyId id, const State& state) const {
   const Body& body = engine_->bodies()[id.index];
   BodyDefinition moved = engine_->bodies().definition_of(id.index);
-  if (auto valid = check_state(state, moved, id, domain_of(body.is_shaped()), call_); !valid) return valid;
+  if (auto valid = check_state(state, moved, id, domain_of(body.is_shaped() || body.is_rigid), call_); !valid) return valid;
   moved.radius = engine_->bodies().radius_at(id.index, engine_->time());
   moved.position = state.position;
   moved.velocity = state.velocity;
@@ -212,7 +212,8 @@ Result<void> World::Preconditions::changed(BodyId id, const BodyChange& change) 
   if (valid && change.angular_velocity) valid = can_spin(id, *change.angular_velocity);
   if (!valid || !(is_of_moving || change.sensor_class)) return valid;
   BodyDefinition changed = engine_->bodies().definition_of(id.index);
-  if ((change.radius || change.radius_rate) && engine_->bodies()[id.index].is_shaped())
+  const Body& body = engine_->bodies()[id.index];
+  if ((change.radius || change.radius_rate) && (body.is_shaped() || body.is_rigid))
     return error_about(ErrorCode::unsupported, id, "body must be a ball, but " + text_of(id) + " is not");
   if (change.radius_rate) valid = check_radius_rate(*change.radius_rate, id, call_);
   if (valid && change.radius) {

@@ -234,6 +234,47 @@ Result<void> World::refresh_filter(BodyId body) {
   return valid;
 }
 
+Result<void> World::set_pair_state(BodyId first, BodyId second, std::int32_t state) {
+  auto valid = Preconditions(*this, "set_pair_state").pair(first, second);
+  if (valid) changing(step::SetPairState{first, second, state}).set_pair_state(first, second, state);
+  return valid;
+}
+
+Result<std::int32_t> World::pair_state(BodyId first, BodyId second) const {
+  const Preconditions check(*this, "pair_state");
+  auto valid = check.known(first);
+  if (valid) valid = check.known(second);
+  if (!valid) return valid.error();
+  return engine_->contacts().pairs().state(first.index, second.index);
+}
+
+Result<void> World::turn_back(const Event& crossing) {
+  auto valid = Preconditions(*this, "turn_back").idle();
+  if (valid) {
+    valid = InputCheck("turn_back")
+                .require(is_of_sensor(crossing.kind), ErrorCode::out_of_range, {"crossing"},
+                         "must be a sensor_enter or sensor_leave", name_of(crossing.kind))
+                .require(crossing.time == engine_->time(), ErrorCode::out_of_range, {"crossing"},
+                         "must be of the present time,", engine_->time(), crossing.time)
+                .result();
+  }
+  if (valid) valid = Preconditions(*this, "turn_back").pair(crossing.first, crossing.second);
+  if (valid) changing(step::TurnBack::of(crossing)).turn_back(crossing);
+  return valid;
+}
+
+Result<void> World::schedule(const Timer& timer) {
+  auto valid = Preconditions(*this, "schedule").idle();
+  if (valid) valid = check_timer(timer, engine_->time());
+  if (valid) changing(step::Schedule{timer}).schedule(timer);
+  return valid;
+}
+
+Result<std::size_t> World::unschedule(std::uint64_t user_data) {
+  if (auto idle = Preconditions(*this, "unschedule").idle(); !idle) return idle.error();
+  return changing(step::Unschedule{user_data}).unschedule(user_data);
+}
+
 Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
   auto valid = Preconditions(*this, "set_sensor").idle();
   if (valid) valid = check_sensor(sensor, engine_->definition());

@@ -125,6 +125,11 @@ class World::Run {
       if (velocity) world_.changing(step::SetVelocity{body, *velocity}).set_velocity(body, *velocity);
     for (const auto& [body, velocity, spin, action] : parts)
       if (spin) world_.changing(step::SetAngularVelocity{body, *spin}).set_angular_velocity(body, *spin);
+    if (checked->pair_state) {
+      world_.changing(step::SetPairState{event.first, event.second, *checked->pair_state})
+          .set_pair_state(event.first, event.second, *checked->pair_state);
+    }
+    if (checked->turned_back) world_.changing(step::TurnBack::of(event)).turn_back(event);
     for (const auto& [body, velocity, spin, action] : parts) act(body, action);
     stops_ = checked->stop;
     return {};
@@ -148,6 +153,10 @@ class World::Run {
     reduce(event.first, answer.first_velocity, answer.first_angular_velocity, answer.first_action);
     reduce(event.second, answer.second_velocity, answer.second_angular_velocity, answer.second_action);
     if (auto valid = check(event, answer); !valid) return valid.error();
+    if (!is_there(event.first) || !is_there(event.second)) {
+      answer.pair_state = std::nullopt;
+      answer.turned_back = false;
+    }
     return answer;
   }
 
@@ -156,16 +165,19 @@ class World::Run {
   void reduce(BodyId body, std::optional<Vec3>& velocity, std::optional<Vec3>& spin,
               BodyAction& action) const {
     if (body == no_body || (!velocity && !spin && action == BodyAction::none)) return;
-    const bool is_there = Preconditions(world_, "run").is_known(body);
+    const bool is_known = is_there(body);
     const Body& now = world_.engine_->bodies()[body.index];
-    if (!is_there || !now.enabled) {
+    if (!is_known || !now.enabled) {
       velocity = spin = std::nullopt;
-      if (!is_there || action != BodyAction::remove) action = BodyAction::none;
+      if (!is_known || action != BodyAction::remove) action = BodyAction::none;
     } else if (action == BodyAction::sleep) {
       velocity = now.is_sleeping() ? std::optional<Vec3>() : Vec3{};
       if (now.is_sleeping()) action = BodyAction::none;
     }
   }
+
+  /// Returns true if the body is one that has not been removed.
+  bool is_there(BodyId body) const { return body != no_body && Preconditions(world_, "run").is_known(body); }
 
   Result<void> check(const Event& event, const Response& answer) const {
     auto valid = check_action(event, event.first, answer.first_action, "first_action");
@@ -174,8 +186,21 @@ class World::Run {
     if (valid) valid = check_velocity_change(event, event.second, answer.second_velocity, "second_velocity");
     if (valid)
       valid = check_spin(event, event.first, answer.first_angular_velocity, "first_angular_velocity");
-    return valid ? check_spin(event, event.second, answer.second_angular_velocity, "second_angular_velocity")
-                 : valid;
+    if (valid)
+      valid = check_spin(event, event.second, answer.second_angular_velocity, "second_angular_velocity");
+    return valid ? check_pair(event, answer) : valid;
+  }
+
+  static Result<void> check_pair(const Event& event, const Response& answer) {
+    const auto refused = [&](std::string_view argument, std::string_view what) -> Result<void> {
+      return Error{ErrorCode::unsupported, std::string(argument), event.first,
+                   "run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind)) +
+                       ": must be given only at " + std::string(what)};
+    };
+    if (answer.pair_state && event.second == no_body) return refused("pair_state", "an event of two bodies");
+    if (answer.turned_back && !is_of_sensor(event.kind))
+      return refused("turned_back", "a sensor_enter or a sensor_leave");
+    return {};
   }
 
   Result<void> check_action(const Event& event, BodyId body, BodyAction action,

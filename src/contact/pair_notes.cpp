@@ -1,0 +1,82 @@
+#include "contact/pair_notes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinesphere {
+
+const PairNote* PairNotes::find(std::uint32_t a, std::uint32_t b) const {
+  const auto notes = of(a);
+  const auto found =
+      std::find_if(notes.begin(), notes.end(), [=](const auto& each) { return each.partner == b; });
+  return found != notes.end() ? &*found : nullptr;
+}
+
+bool PairNotes::has_turned(std::uint32_t body) const {
+  const auto notes = of(body);
+  return std::any_of(notes.begin(), notes.end(), [](const auto& each) { return each.is_turned(); });
+}
+
+void PairNotes::set_state(std::uint32_t a, std::uint32_t b, std::int32_t state) {
+  const PairNote* const known = find(a, b);
+  PairNote note = known != nullptr ? *known : PairNote{};
+  note.state = state;
+  keep(a, b, note);
+}
+
+void PairNotes::set_turned(std::uint32_t a, std::uint32_t b, std::optional<double> distance) {
+  const PairNote* const known = find(a, b);
+  if (known == nullptr && !distance) return;
+  PairNote note = known != nullptr ? *known : PairNote{};
+  note.turned_at = distance.value_or(-1.0);
+  keep(a, b, note);
+}
+
+void PairNotes::forget_turns(std::uint32_t body) {
+  const std::vector<PairNote> notes(of(body).begin(), of(body).end());
+  for (const PairNote& note : notes) set_turned(body, note.partner, std::nullopt);
+}
+
+void PairNotes::forget(std::uint32_t body) {
+  const std::vector<PairNote> notes(of(body).begin(), of(body).end());
+  for (const PairNote& note : notes) keep(body, note.partner, PairNote{});
+}
+
+void PairNotes::keep(std::uint32_t a, std::uint32_t b, const PairNote& note) {
+  keep_half(a, {b, note.state, note.turned_at});
+  keep_half(b, {a, note.state, note.turned_at});
+}
+
+void PairNotes::keep_half(std::uint32_t body, const PairNote& note) {
+  const bool is_empty = note.state == 0 && !note.is_turned();
+  if (body >= lists_.size()) {
+    if (is_empty) return;
+    lists_.resize(body + std::size_t{1});
+  }
+  std::vector<PairNote>& list = lists_[body];
+  const auto place = std::find_if(list.begin(), list.end(),
+                                  [&](const PairNote& each) { return each.partner == note.partner; });
+  if (is_empty) {
+    if (place != list.end()) list.erase(place);
+  } else if (place != list.end()) {
+    *place = note;
+  } else {
+    list.push_back(note);
+  }
+}
+
+bool PairNotes::is_valid(std::size_t bodies) const {
+  if (lists_.size() > bodies) return false;
+  for (std::uint32_t body = 0; body < lists_.size(); ++body) {
+    for (const PairNote& note : lists_[body]) {
+      if (note.partner == body || (note.state == 0 && !note.is_turned())) return false;
+      if (std::isnan(note.turned_at)) return false;
+      if (find(body, note.partner) != &note) return false;  // it is there twice
+      const PairNote* const back = find(note.partner, body);
+      if (back == nullptr || back->state != note.state || back->turned_at != note.turned_at) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace kinesphere
