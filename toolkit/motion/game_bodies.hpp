@@ -1,0 +1,82 @@
+// GameBodies: the bodies of a GameWorld in arrays without gaps, and their free flight.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kinesphere/run.hpp"
+#include "kinesphere/world_definition.hpp"
+
+namespace kinesphere {
+
+/// Whether a body flies, or stands still where it is.
+enum class GameMotion : std::uint8_t { flying, asleep, disabled };
+
+/// Flight of a body from its last change on.
+struct GamePath {
+  double since;
+  State start;
+  Vec3 acceleration;  ///< beside the gravity
+  GameMotion motion = GameMotion::flying;
+};
+
+class GameBodies final : public MotionSource {
+ public:
+  /// Without bodies; to be read, for those of a saved game. `world` says which axes are periodic.
+  GameBodies() = default;
+  GameBodies(const WorldDefinition& world, const Vec3& gravity);
+  static void serialize(auto& self, auto& archive) { archive(self.gravity_, self.ids_, self.paths_); }
+  /// Completes what was read. Returns false for a body that is listed twice, and for numbers that are not
+  /// finite or later than `time`.
+  bool complete(const WorldDefinition& world, double time);
+
+  const Vec3& gravity() const { return gravity_; }
+  const std::vector<BodyId>& ids() const { return ids_; }
+  const GamePath& path(std::size_t place) const { return paths_[place]; }
+  std::optional<std::size_t> find(BodyId body) const;
+
+  /// States and dense arrays; on periodic axes positions lie in the box, but for those of flights.
+  State flight(std::size_t place, double time) const;
+  State state(std::size_t place, double time) const;
+  const std::vector<Vec3>& positions(double time) const { return refreshed(time), positions_; }
+  const std::vector<Vec3>& velocities(double time) const { return refreshed(time), velocities_; }
+
+  // Changes at a time that is not before the last change of the body.
+
+  void add(BodyId body, double time, const State& state, const Vec3& acceleration);
+  /// Moves the last body to the place of this one.
+  void remove(std::size_t place);
+  void restart(std::size_t place, double time, const State& state);
+  /// Lets a body stand still; restart() lets it fly again.
+  void halt(std::size_t place, double time, GameMotion motion);
+  void set_acceleration(std::size_t place, double time, const Vec3& acceleration);
+  void set_gravity(double time, const Vec3& gravity);
+
+  // The motion source of World::run(). All throw BadResult: unknown_body.
+
+  void states(std::span<const BodyId> ids, double time, std::span<State> states) override;
+  MotionOrigin origin(BodyId body) const override;
+  void set_origin(BodyId body, const MotionOrigin& origin) override;
+
+ private:
+  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+
+  std::size_t known(BodyId body) const;
+  void refreshed(double time) const;
+  void tell(std::size_t place, double time) const;
+
+  Vec3 gravity_{};
+  Axes periodic_{};
+  Box box_{};
+  std::vector<BodyId> ids_;
+  std::vector<GamePath> paths_;
+  std::vector<std::uint32_t> places_;  ///< by BodyId::index
+  mutable std::vector<Vec3> positions_, velocities_;
+  /// Time of positions_ and velocities_; NaN if they are to be computed.
+  mutable double told_at_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace kinesphere
