@@ -141,7 +141,7 @@ class GameWorld {
   /// The game has to know of what moves, so moving bodies are added, moved, removed and disabled by its own
   /// calls, and their motion limits stay. A moving body that the world alone knows is an error as soon as the
   /// world asks for it: unknown_body, thrown as BadResult by step(). One that the world alone has removed
-  /// leaves the arrays with the next step.
+  /// stays in the arrays until remove() takes it out; all other calls return stale_body for it.
   World& world();
   const World& world() const;
 

@@ -466,6 +466,10 @@ TEST(GameWorld, BodiesThatTheWorldAloneKnowsAreTold) {
   const BodyId other = game.add({.radius = 1, .position = {9, 0, 0}}).value();
   game.world().remove(ball).value();
   game.step(1.0).value();
+  EXPECT_EQ(game.ids().size(), 2u);
+  expect_error(game.set_velocities(std::vector{Vec3{1, 0, 0}, Vec3{}}), ErrorCode::stale_body, "body",
+               "set_velocities", ball);
+  game.remove(ball).value();
   EXPECT_TRUE(std::ranges::equal(game.ids(), std::vector{other}));
   const BodyId stray =
       game.world().add({.radius = 1, .acceleration_limit = 1, .position = {20, 0, 0}}).value();
@@ -475,6 +479,34 @@ TEST(GameWorld, BodiesThatTheWorldAloneKnowsAreTold) {
   } catch (const BadResult& bad) {
     EXPECT_EQ(bad.error().code, ErrorCode::unknown_body);
     EXPECT_EQ(bad.error().body, stray);
+  }
+}
+
+TEST(GameWorld, ABodyThatAppearsAtRestInsideAnotherIsToldIfItAsksForBegins) {
+  // To bodies that ask for impacts alone it is none: they do not approach, and no bounce could part them.
+  for (const bool asks : {false, true}) {
+    GameWorld game = GameWorld::create({.world = {.contacts = ContactEvents::impacts}}).value();
+    game.add({.radius = 1}).value();
+    BodyDefinition body{.radius = 1, .position = {0.5, 0, 0}};
+    if (asks) body.contacts = ContactEvents::begin_and_end;
+    const BodyId spawned = game.add(body).value();
+    const auto events = game.step(0.1).value();
+    ASSERT_EQ(events.size(), asks ? 1u : 0u);
+    if (asks) {
+      EXPECT_EQ(events[0].kind, EventKind::contact_begin);
+    }
+    EXPECT_EQ(game.queries().overlapping({0.5, 0, 0}, 1, {.except = spawned})->size(), 1u);
+  }
+}
+
+TEST(GameWorld, AMaskWithoutBit1FallsThroughAFloorOfTheDefaultCategory) {
+  for (const std::uint64_t mask : {2, 3}) {
+    GameWorld game = game_in_room();
+    game.add_static({.shape = Box{{0, 0, 4}, {10, 10, 5}}}).value();
+    const BodyId ball =
+        game.add({.radius = 0.5, .position = {5, 5, 7}, .filter = {.category = 2, .mask = mask}}).value();
+    game.step(1.0).value();
+    EXPECT_EQ(game.state(ball).position.z < 4.5, mask == 2);
   }
 }
 

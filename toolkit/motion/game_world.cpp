@@ -65,6 +65,12 @@ struct GameWorld::Game {
   World world;
   GameBodies bodies;
   GameResponse response;
+  /// What set_velocities() changes; kept for its memory.
+  struct Steered {
+    std::vector<std::uint32_t> places;
+    std::vector<BodyId> ids;
+    std::vector<Vec3> velocities;
+  } steered{};
   std::vector<Event> events{};  ///< of the last step()
   Response answer{};            ///< to the present event
   bool stepping = false;        ///< true inside step() and as long as a range over events exists
@@ -100,8 +106,6 @@ struct GameWorld::Game {
   }
 
   Result<void> advance(double until, const EventFn& sink) {
-    for (std::size_t place = bodies.ids().size(); place-- > 0;)
-      if (!world.contains(bodies.ids()[place])) bodies.remove(place);
     const auto respond = [&](const Event& event) {
       answering = true;
       const ScopeGuard answered([&] { answering = false; });
@@ -126,7 +130,7 @@ struct GameWorld::Game {
   void follow(const Event& event, BodyId body, BodyAction action) {
     const auto place = bodies.find(body);
     if (!place) return;
-    const GameMotion motion = bodies.path(*place).motion;
+    const GameMotion motion = bodies.motion(*place);
     if (!world.contains(body))
       bodies.remove(*place);
     else if (action == BodyAction::disable)
@@ -144,10 +148,11 @@ struct GameWorld::Game {
     const auto fits = [&](BodyId id) {
       const auto view = world.body(id);
       if (!view || view->is_static) return false;
-      const GamePath& path = bodies.path(*bodies.find(id));
-      return view->definition.planned_acceleration == bodies.gravity() + path.acceleration &&
-             view->enabled == (path.motion != GameMotion::disabled) &&
-             (!view->sleeping || path.motion == GameMotion::asleep);
+      const std::size_t place = *bodies.find(id);
+      const GameMotion motion = bodies.motion(place);
+      return view->definition.planned_acceleration == bodies.gravity() + bodies.own_acceleration(place) &&
+             view->enabled == (motion != GameMotion::disabled) &&
+             (!view->sleeping || motion == GameMotion::asleep);
     };
     return movable == bodies.ids().size() && std::all_of(bodies.ids().begin(), bodies.ids().end(), fits);
   }
@@ -206,7 +211,10 @@ Result<BodyId> GameWorld::add_zone(const Shape& shape, std::uint64_t user_data) 
 
 Result<void> GameWorld::remove(BodyIds bodies) {
   if (!game_) return moved_from("remove");
-  auto removed = game_->world.remove(bodies);
+  std::vector<BodyId> there;  // without those that the world alone has removed
+  for (const BodyId body : bodies)
+    if (game_->world.contains(body) || !game_->bodies.find(body)) there.push_back(body);
+  auto removed = game_->world.remove(there);
   if (!removed) return removed;
   for (const BodyId body : bodies)
     if (const auto place = game_->bodies.find(body)) game_->bodies.remove(*place);
@@ -223,9 +231,7 @@ Result<void> GameWorld::teleport(BodyId body, const State& state) {
 Result<void> GameWorld::set_velocity(BodyId body, const Vec3& velocity) {
   if (!game_) return moved_from("set_velocity");
   auto done = game_->world.set_velocity(body, velocity);
-  if (!done) return done;
-  const std::size_t place = *game_->bodies.find(body);
-  game_->bodies.restart(place, time(), {game_->bodies.flight(place, time()).position, velocity});
+  if (done) game_->bodies.set_velocity(*game_->bodies.find(body), time(), velocity);
   return done;
 }
 
@@ -237,19 +243,21 @@ Result<void> GameWorld::set_velocities(std::span<const Vec3> velocities) {
                 "must have one entry per body,", bodies.ids().size(), velocities.size());
   if (check.error()) return *check.error();
   const double now = time();
-  std::vector<BodyId> ids;
-  std::vector<Vec3> changed;
-  std::vector<State> states;
-  for (std::size_t place = 0; place < velocities.size(); ++place) {
-    const State state = bodies.flight(place, now);
-    if (bodies.path(place).motion == GameMotion::disabled || state.velocity == velocities[place]) continue;
-    ids.push_back(bodies.ids()[place]);
-    changed.push_back(velocities[place]);
-    states.push_back({state.position, velocities[place]});
+  const std::vector<Vec3>& before = bodies.velocities(now);
+  auto& [places, ids, changed] = game_->steered;
+  places.clear(), ids.clear(), changed.clear();
+  for (std::uint32_t place = 0; place < velocities.size(); ++place)
+    if (before[place] != velocities[place] && bodies.motion(place) != GameMotion::disabled)
+      places.push_back(place);
+  const bool all = places.size() == velocities.size();
+  for (std::size_t k = 0; k < places.size() && !all; ++k) {
+    ids.push_back(bodies.ids()[places[k]]);
+    changed.push_back(velocities[places[k]]);
   }
-  auto done = game_->world.set_velocities(ids, changed);
+  auto done =
+      all ? game_->world.set_velocities(bodies.ids(), velocities) : game_->world.set_velocities(ids, changed);
   if (!done) return done;
-  for (std::size_t k = 0; k < ids.size(); ++k) bodies.restart(*bodies.find(ids[k]), now, states[k]);
+  for (const std::uint32_t place : places) bodies.set_velocity(place, now, velocities[place]);
   return done;
 }
 
@@ -270,7 +278,7 @@ Result<void> GameWorld::set_gravity(const Vec3& gravity) {
   std::vector<BodyChange> changes;
   for (std::size_t place = 0; place < bodies.ids().size() && valid; ++place) {
     const BodyId body = bodies.ids()[place];
-    changes.push_back(game_->acceleration_of(body, gravity + bodies.path(place).acceleration));
+    changes.push_back(game_->acceleration_of(body, gravity + bodies.own_acceleration(place)));
     valid = world.check_change(body, changes.back());
   }
   if (!valid) return valid;
