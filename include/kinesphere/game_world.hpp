@@ -35,7 +35,8 @@
 namespace kinesphere {
 
 /// Any callable `Response(const Event&)` with the preconditions of ResponseFn, or none. The game keeps it, so
-/// it owns its callable; what that refers to must outlive the game and its clones.
+/// it owns its callable; what that refers to must outlive the game and its clones. Response::stop has no
+/// effect.
 using GameResponse = std::function<Response(const Event& event)>;
 
 /// Returns the response that lets bodies bounce off each other and off walls: bounce() at each begin of a
@@ -59,9 +60,9 @@ struct GameDefinition {
 /// run_in_progress inside the game's response, and step() and the calls that say so also in a loop over
 /// step_through(). A moved-from game answers with moved_from. Calls that return no Result throw BadResult.
 ///
-/// Threads: one at a time; between steps, several may make const calls. Lifetimes: spans and references are
-/// valid until the game is assigned to or destroyed, spans also no longer than until the next call that is
-/// not const. A game may be moved at any time.
+/// Threads: one at a time; between steps, several may make const calls. Lifetimes: references and queries are
+/// valid until the game is assigned to or destroyed, spans until the next call that is not const. A game may
+/// be moved at any time.
 class GameWorld {
  public:
   class Events;
@@ -82,8 +83,8 @@ class GameWorld {
   /// Adds a body that never moves, or a zone. It is in world(), and not in ids().
   Result<BodyId> add_static(const StaticDefinition& body);
   Result<BodyId> add_zone(const Shape& shape, std::uint64_t user_data = 0);
-  /// Removes bodies, static ones too. In ids() and the arrays beside it, the last body takes the place of the
-  /// removed one; all others keep theirs. Ids of the others stay valid.
+  /// Removes bodies, static ones too, or, on an error, none. In ids() and the arrays beside it, the last body
+  /// takes the place of the removed one; all others keep theirs. Ids of the others stay valid.
   Result<void> remove(BodyIds bodies);
   Result<void> teleport(BodyId body, const State& state);
   Result<void> set_velocity(BodyId body, const Vec3& velocity);

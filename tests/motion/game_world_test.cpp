@@ -384,7 +384,7 @@ TEST(GameWorld, WrongUseIsToldByName) {
   expect_error(game.teleport(floor, {}), ErrorCode::static_body, "body", "teleport", floor);
   expect_error(game.sleep(gone), ErrorCode::stale_body, "body", "sleep", gone);
   expect_error(game.remove({gone}), ErrorCode::stale_body, "body", "remove", gone);
-  expect_error(game.set_acceleration(gone, {}), ErrorCode::stale_body, "body", "change", gone);
+  expect_error(game.set_acceleration(gone, {}), ErrorCode::stale_body, "body", "body", gone);
   expect_error(game.set_acceleration(floor, {}), ErrorCode::static_body, "body", "change", floor);
   expect_error(game.set_acceleration(ball, {0, nan, 0}), ErrorCode::not_finite, "planned_acceleration",
                "change", ball);
@@ -469,10 +469,17 @@ TEST(GameWorld, BodiesThatTheWorldAloneKnowsAreTold) {
   EXPECT_EQ(game.ids().size(), 2u);
   expect_error(game.set_velocities(std::vector{Vec3{1, 0, 0}, Vec3{}}), ErrorCode::stale_body, "body",
                "set_velocities", ball);
+  expect_error(game.set_gravity({}), ErrorCode::stale_body, "body", "body", ball);
   game.remove(ball).value();
   EXPECT_TRUE(std::ranges::equal(game.ids(), std::vector{other}));
   const BodyId stray =
       game.world().add({.radius = 1, .acceleration_limit = 1, .position = {20, 0, 0}}).value();
+  const auto unknown = ErrorCode::unknown_body;
+  expect_error(game.set_velocity(stray, {}), unknown, "body", "GameWorld", stray);
+  expect_error(game.teleport(stray, {}), unknown, "body", "GameWorld", stray);
+  expect_error(game.set_acceleration(stray, {}), unknown, "body", "GameWorld", stray);
+  expect_error(game.sleep(stray), unknown, "body", "GameWorld", stray);
+  expect_error(game.disable(stray), unknown, "body", "GameWorld", stray);
   try {
     (void)game.step(100.0);
     FAIL();

@@ -104,11 +104,13 @@ void GameBodies::set_gravity(double time, const Vec3& gravity) {
   for (std::size_t place = 0; place < ids_.size(); ++place) set_acceleration(place, time, own_[place]);
 }
 
-void GameBodies::refuse(BodyId body) {
-  detail::bad_result({ErrorCode::unknown_body, "body", body,
-                      "GameWorld: body: " + text_of(body) +
-                          " must be moved by the game, but was added to its world() alone"});
+Error GameBodies::not_moved(BodyId body) {
+  return {
+      ErrorCode::unknown_body, "body", body,
+      "GameWorld: body: " + text_of(body) + " must be moved by the game, but was added to its world() alone"};
 }
+
+void GameBodies::refuse(BodyId body) { detail::bad_result(not_moved(body)); }
 
 void GameBodies::states(std::span<const BodyId> ids, double time, std::span<State> states) {
   for (std::size_t k = 0; k < ids.size(); ++k) states[k] = flight(known(ids[k]), time);

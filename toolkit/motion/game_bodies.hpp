@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "kinesphere/result.hpp"
 #include "kinesphere/run.hpp"
 #include "kinesphere/world_definition.hpp"
 
@@ -15,6 +16,7 @@ namespace kinesphere {
 /// Whether a body flies, or stands still where it is.
 enum class GameMotion : std::uint8_t { flying, asleep, disabled };
 
+/// Dense arrays of bodies: place k of each is that of ids()[k].
 class GameBodies final : public MotionSource {
  public:
   /// Without bodies; to be read, for those of a saved game. `world` says which axes are periodic.
@@ -23,6 +25,8 @@ class GameBodies final : public MotionSource {
   static void serialize(auto& self, auto& archive) {
     archive(self.gravity_, self.ids_, self.origins_, self.own_, self.motions_);
   }
+  /// Returns the error of a body that can move and is none of these.
+  static Error not_moved(BodyId body);
   /// Completes what was read. Returns false for a body that is listed twice, and for numbers that are not
   /// finite or later than `time`.
   bool complete(const WorldDefinition& world, double time);
@@ -34,7 +38,7 @@ class GameBodies final : public MotionSource {
   GameMotion motion(std::size_t place) const { return motions_[place]; }
   std::optional<std::size_t> find(BodyId body) const;
 
-  /// States and dense arrays; on periodic axes positions lie in the box, but for those of flights.
+  /// Returns the state at a time that is not before the last change. Cost: O(1).
   State flight(std::size_t place, double time) const {
     const auto& [since, start] = origins_[place];
     const double s = time - since;
@@ -43,10 +47,12 @@ class GameBodies final : public MotionSource {
     return {start.position + s * (start.velocity + s * (0.5 * acceleration)),
             start.velocity + s * acceleration};
   }
+  /// Returns the state with the image of its position that lies in the box of a periodic world.
   State state(std::size_t place, double time) const {
     const State now = flight(place, time);
     return periodic_.any() ? State{wrapped(now.position), now.velocity} : now;
   }
+  /// Of all bodies, as state(). Cost: O(n) for another time than that of the last call.
   const std::vector<Vec3>& positions(double time) const { return refreshed(time), positions_; }
   const std::vector<Vec3>& velocities(double time) const { return refreshed(time), velocities_; }
 

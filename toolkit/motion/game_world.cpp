@@ -90,10 +90,23 @@ struct GameWorld::Game {
     return id;
   }
 
-  BodyChange acceleration_of(BodyId body, const Vec3& acceleration) const {
-    MotionLimits limits = motion_limits_of(world.body(body)->definition);
+  /// Makes a change of the world, and then of the motion of the body at its place.
+  template <class Change, class Follow>
+  Result<void> change(BodyId body, Change change, Follow follow) {
+    const auto place = bodies.find(body);
+    if (!place && world.contains(body) && !world.body(body)->is_static) return GameBodies::not_moved(body);
+    auto done = change();
+    if (done && place) follow(*place);
+    return done;
+  }
+
+  /// Returns the change of the world that gives a body this whole acceleration. Errors: as World::body().
+  Result<BodyChange> acceleration_of(BodyId body, const Vec3& acceleration) const {
+    const auto view = world.body(body);
+    if (!view) return view.error();
+    MotionLimits limits = motion_limits_of(view->definition);
     limits.planned_acceleration = acceleration;
-    return {.motion_limits = limits};
+    return BodyChange{.motion_limits = limits};
   }
 
   /// Returns the end of a step of dt, which may begin now.
@@ -223,16 +236,16 @@ Result<void> GameWorld::remove(BodyIds bodies) {
 
 Result<void> GameWorld::teleport(BodyId body, const State& state) {
   if (!game_) return moved_from("teleport");
-  auto done = game_->world.teleport(body, state);
-  if (done) game_->bodies.restart(*game_->bodies.find(body), time(), state);
-  return done;
+  return game_->change(
+      body, [&] { return game_->world.teleport(body, state); },
+      [&](std::size_t place) { game_->bodies.restart(place, time(), state); });
 }
 
 Result<void> GameWorld::set_velocity(BodyId body, const Vec3& velocity) {
   if (!game_) return moved_from("set_velocity");
-  auto done = game_->world.set_velocity(body, velocity);
-  if (done) game_->bodies.set_velocity(*game_->bodies.find(body), time(), velocity);
-  return done;
+  return game_->change(
+      body, [&] { return game_->world.set_velocity(body, velocity); },
+      [&](std::size_t place) { game_->bodies.set_velocity(place, time(), velocity); });
 }
 
 Result<void> GameWorld::set_velocities(std::span<const Vec3> velocities) {
@@ -263,11 +276,11 @@ Result<void> GameWorld::set_velocities(std::span<const Vec3> velocities) {
 
 Result<void> GameWorld::set_acceleration(BodyId body, const Vec3& acceleration) {
   if (!game_) return moved_from("set_acceleration");
-  GameBodies& bodies = game_->bodies;
-  auto done = game_->world.check_change(body, {.motion_limits = MotionLimits{}});
-  if (done) done = game_->world.change(body, game_->acceleration_of(body, bodies.gravity() + acceleration));
-  if (done) bodies.set_acceleration(*bodies.find(body), time(), acceleration);
-  return done;
+  const auto whole = game_->acceleration_of(body, gravity() + acceleration);
+  if (!whole) return whole.error();
+  return game_->change(
+      body, [&] { return game_->world.change(body, *whole); },
+      [&](std::size_t place) { game_->bodies.set_acceleration(place, time(), acceleration); });
 }
 
 Result<void> GameWorld::set_gravity(const Vec3& gravity) {
@@ -278,8 +291,10 @@ Result<void> GameWorld::set_gravity(const Vec3& gravity) {
   std::vector<BodyChange> changes;
   for (std::size_t place = 0; place < bodies.ids().size() && valid; ++place) {
     const BodyId body = bodies.ids()[place];
-    changes.push_back(game_->acceleration_of(body, gravity + bodies.own_acceleration(place)));
-    valid = world.check_change(body, changes.back());
+    const auto whole = game_->acceleration_of(body, gravity + bodies.own_acceleration(place));
+    if (!whole) return whole.error();
+    valid = world.check_change(body, *whole);
+    changes.push_back(*whole);
   }
   if (!valid) return valid;
   for (std::size_t place = 0; place < changes.size(); ++place)
@@ -290,25 +305,23 @@ Result<void> GameWorld::set_gravity(const Vec3& gravity) {
 
 Result<void> GameWorld::sleep(BodyId body) {
   if (!game_) return moved_from("sleep");
-  auto done = game_->world.sleep(body);
-  if (done) game_->bodies.halt(*game_->bodies.find(body), time(), GameMotion::asleep);
-  return done;
+  return game_->change(
+      body, [&] { return game_->world.sleep(body); },
+      [&](std::size_t place) { game_->bodies.halt(place, time(), GameMotion::asleep); });
 }
 
 Result<void> GameWorld::disable(BodyId body) {
   if (!game_) return moved_from("disable");
-  auto done = game_->world.disable(body);
-  if (const auto place = game_->bodies.find(body); done && place)
-    game_->bodies.halt(*place, time(), GameMotion::disabled);
-  return done;
+  return game_->change(
+      body, [&] { return game_->world.disable(body); },
+      [&](std::size_t place) { game_->bodies.halt(place, time(), GameMotion::disabled); });
 }
 
 Result<void> GameWorld::enable(BodyId body, const State& state) {
   if (!game_) return moved_from("enable");
-  auto done = game_->world.enable(body, state);
-  if (const auto place = game_->bodies.find(body); done && place)
-    game_->bodies.restart(*place, time(), state);
-  return done;
+  return game_->change(
+      body, [&] { return game_->world.enable(body, state); },
+      [&](std::size_t place) { game_->bodies.restart(place, time(), state); });
 }
 
 Result<std::span<const Event>> GameWorld::step(double dt) {
@@ -331,7 +344,10 @@ GameWorld::Events GameWorld::step_through(double dt) {
 }
 
 GameWorld::Events::Events(Game& game, double until) : game_(game), until_(until) { game_.stepping = true; }
-GameWorld::Events::~Events() { game_.stepping = false; }
+GameWorld::Events::~Events() {
+  game_.stepping = false;
+  (void)game_.bodies.positions(game_.world.time());
+}
 
 void GameWorld::Events::go_on() {
   event_.reset();
@@ -397,6 +413,7 @@ Result<GameWorld> GameWorld::restore(std::span<const std::byte> snapshot, GameRe
   auto world = World::restore(bytes, std::move(pair_filter));
   if (!world) return world.error();
   const bool known = bodies.complete(world->definition(), world->time());
+  (void)bodies.positions(world->time());
   auto game = std::make_unique<Game>(std::move(*world), std::move(bodies), std::move(response));
   if (!known || !game->is_valid())
     return game_envelope.refusal("must hold a game that can be, but contradicts itself in its bodies");
