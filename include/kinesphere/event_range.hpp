@@ -49,6 +49,7 @@ class EventIterator {
 /// range and keep its address. The range owns a temporary probe.
 class [[nodiscard]] EventRange {
  public:
+  /// Single-pass; the end is std::default_sentinel.
   using Iterator = EventIterator<EventRange>;
 
   /// World::events() makes a range.

@@ -47,6 +47,7 @@ GameResponse settling(double restitution, double resting_speed);
 
 /// What a GameWorld begins with.
 struct GameDefinition {
+  /// Space, tolerance and events, as for World::create().
   WorldDefinition world{};
   /// Acceleration of all bodies (length / time^2), beside that of each body itself.
   Vec3 gravity{};
@@ -69,6 +70,7 @@ class GameWorld {
 
   /// Creates a game without bodies. Errors: as World::create(); not_finite or out_of_range for the gravity.
   static Result<GameWorld> create(const GameDefinition& definition);
+  /// A moved-from game may only be assigned to and destroyed.
   GameWorld(GameWorld&&) noexcept;
   GameWorld& operator=(GameWorld&&) noexcept;
   ~GameWorld();
@@ -77,6 +79,7 @@ class GameWorld {
 
   /// Adds a body. Its acceleration is `planned_acceleration` beside the gravity of the game.
   Result<BodyId> add(const BodyDefinition& body);
+  /// Adds a body that carries a shape: World::add_moving_shape().
   Result<BodyId> add_moving_shape(const MovingShape& body);
   /// Adds a rigid body, which turns evenly between events.
   Result<BodyId> add_rigid_body(const RigidBody& body);
@@ -86,7 +89,9 @@ class GameWorld {
   /// Removes bodies, static ones too, or, on an error, none. In ids() and the arrays beside it, the last body
   /// takes the place of the removed one; all others keep theirs. Ids of the others stay valid.
   Result<void> remove(BodyIds bodies);
+  /// Puts a body into another state: World::teleport().
   Result<void> teleport(BodyId body, const State& state);
+  /// Gives a body another velocity: World::set_velocity().
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
   /// Sets the velocities of all bodies, in the order of ids(), or, on an error, of none. A body that has its
   /// velocity already goes on undisturbed, asleep or awake; entries of disabled bodies have no effect.
@@ -100,8 +105,9 @@ class GameWorld {
   Result<void> set_gravity(const Vec3& gravity);
   /// Puts a body to sleep where it is, with velocity 0. It falls on when it wakes.
   Result<void> sleep(BodyId body);
-  /// A disabled body keeps its place in the arrays, with velocity 0.
+  /// Disables a body, which keeps its place in the arrays, with velocity 0: World::disable().
   Result<void> disable(BodyId body);
+  /// Enables a body again, in this state: World::enable().
   Result<void> enable(BodyId body, const State& state);
 
   // Time.
@@ -123,6 +129,7 @@ class GameWorld {
 
   // What there is. All arrays have the order of ids().
 
+  /// Return the present time, and the gravity that acts on all bodies.
   double time() const;
   const Vec3& gravity() const;
   /// The bodies that can move, disabled ones too.
@@ -169,15 +176,18 @@ class GameWorld {
 /// Single-pass range over the events of one step (GameWorld::step_through). The step ends with it.
 class [[nodiscard]] GameWorld::Events {
  public:
+  /// Single-pass; the end is std::default_sentinel.
   using Iterator = EventIterator<Events>;
 
   Events(const Events&) = delete;
   Events& operator=(const Events&) = delete;
   ~Events();
+  /// Advances to the first event.
   Iterator begin() {
     go_on();
     return Iterator(*this);
   }
+  /// The end of every range.
   std::default_sentinel_t end() const { return {}; }
 
  private:
