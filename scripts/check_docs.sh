@@ -5,7 +5,7 @@
 # - The three examples of docs/watch.md print what follows them, its table counts the alerts of their streams, and
 #   make_streams.py makes these streams.
 # - Each line of C, Rust and C# in docs/c.md is in an example of its language.
-# - Each line of C++ in the guides (docs/worlds.md, running.md, recipes.md, from-box2d.md, distributed.md) and in
+# - Each line of C++ in the guides (docs/games.md, worlds.md, running.md, recipes.md, from-box2d.md, distributed.md) and in
 #   docs/lessons is in an example, and examples/sensors.cpp prints its output in docs/worlds.md.
 # - Each example that a lesson runs prints what the lesson says.
 # - Each mark "proved" or "tested" in docs/guarantee.md names an existing theorem or test, and the tables of
@@ -53,7 +53,7 @@ python3 examples/streams/make_streams.py "$made"
 for stream in "$made"/*; do cmp "$stream" "examples/streams/${stream##*/}"; done
 
 # Each line of C++ in the guides stands in an example.
-for page in docs/worlds.md docs/running.md docs/recipes.md docs/from-box2d.md docs/distributed.md docs/lessons/*.md; do
+for page in docs/games.md docs/worlds.md docs/running.md docs/recipes.md docs/from-box2d.md docs/distributed.md docs/lessons/*.md; do
   awk '/^```/ {on = $0 == "```cpp"; next} on && NF {print}' "$page" | while IFS= read -r line; do
     if ! grep -qxF -- "$line" examples/*.cpp; then
       echo "$page: no example has the line: $line" >&2

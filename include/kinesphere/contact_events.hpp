@@ -8,7 +8,11 @@ namespace kinesphere {
 /// Which contact events a body asks for (BodyDefinition::contacts, WorldDefinition::contacts). Two bodies
 /// report what either asks for. Walls and static bodies ask for nothing themselves.
 enum class ContactEvents : std::uint8_t {
-  /// A begin whenever the two touch and approach, and no ends: the least, for bodies that only bounce.
+  /// A begin whenever the two touch and approach, and no ends: the least, for bodies that only bounce. Two
+  /// that
+  /// touch or overlap without an approach have no event, as a body that is added at rest inside another: no
+  /// bounce could part them. To hear of it, let that body ask for begin_and_end, or look before it is added
+  /// (Queries::overlapping); WorldDefinition::allow_overlap = false refuses it.
   impacts = 1,
   /// One begin and one end for each contact, for bodies whose contacts are watched and seldom answered. There
   /// is another begin (Event::already_touching) only for the first approach of two that did not approach when

@@ -13,6 +13,34 @@ namespace kinesphere {
 
 class World;
 
+/// Iterator of a single-pass range over events, whose private go_on() sets its event_ to the next event, or
+/// to nothing at the end.
+template <class Range>
+class EventIterator {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = Event;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const Event*;
+  using reference = const Event&;
+
+  EventIterator() = default;
+  explicit EventIterator(Range& range) : range_(&range) {}
+
+  /// Returns the current event; the reference is valid until the next increment.
+  const Event& operator*() const { return *range_->event_; }
+  const Event* operator->() const { return &*range_->event_; }
+  EventIterator& operator++() {
+    range_->go_on();
+    return *this;
+  }
+  void operator++(int) { range_->go_on(); }
+  bool operator==(std::default_sentinel_t) const { return !range_->event_; }
+
+ private:
+  Range* range_ = nullptr;
+};
+
 /// Single-pass range over the events of a world up to a time. begin() and each increment call
 /// World::advance(), so everything that is allowed at a stop is allowed between two events. After the loop
 /// has finished, time() == until; after an early exit, the world is at the last event, and another range
@@ -21,30 +49,8 @@ class World;
 /// range and keep its address. The range owns a temporary probe.
 class [[nodiscard]] EventRange {
  public:
-  class Iterator {
-   public:
-    using iterator_category = std::input_iterator_tag;
-    using value_type = Event;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const Event*;
-    using reference = const Event&;
-
-    Iterator() = default;
-    explicit Iterator(EventRange& range) : range_(&range) {}
-
-    /// Returns the current event; the reference is valid until the next increment.
-    const Event& operator*() const { return *range_->event_; }
-    const Event* operator->() const { return &*range_->event_; }
-    Iterator& operator++() {
-      range_->go_on();
-      return *this;
-    }
-    void operator++(int) { range_->go_on(); }
-    bool operator==(std::default_sentinel_t) const { return !range_->event_; }
-
-   private:
-    EventRange* range_ = nullptr;
-  };
+  /// Single-pass; the end is std::default_sentinel.
+  using Iterator = EventIterator<EventRange>;
 
   /// World::events() makes a range.
   EventRange(World& world, double until, Probe probe)
@@ -59,6 +65,7 @@ class [[nodiscard]] EventRange {
   std::default_sentinel_t end() const { return {}; }
 
  private:
+  friend Iterator;
   void go_on();
 
   World* world_;

@@ -13,7 +13,9 @@ namespace kinesphere {
 
 /// Selects the bodies that a body may touch. Two bodies in one non-zero group may touch if the group is
 /// positive, and may not if it is negative. Any other pair may touch if the category of each has a bit in
-/// the mask of the other. By default every pair may touch. The walls of a world meet every body unless they
+/// the mask of the other. By default every pair may touch. A body without a filter of its own, as a floor of
+/// World::add_static(), has the category 1: a mask without that bit lets its body fall through the floor. Put
+/// the bit into the mask, or give the floor all categories. The walls of a world meet every body unless they
 /// have a filter, too (WorldDefinition::wall_filter). Two static bodies never touch.
 struct Filter {
   std::uint64_t category = 1;

@@ -14,6 +14,7 @@
 #include "kinesphere/event_hash.hpp"
 #include "kinesphere/event_range.hpp"
 #include "kinesphere/filter.hpp"
+#include "kinesphere/game_world.hpp"
 #include "kinesphere/inspection.hpp"
 #include "kinesphere/monitor/monitor.hpp"
 #include "kinesphere/motion/ballistic.hpp"

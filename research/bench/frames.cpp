@@ -112,8 +112,9 @@ void add_steered(ResultTable& table, std::uint32_t bodies, int dimensions, std::
   const double grid = median_frame(steer_grid(settings).seconds);
   const double velocities = median_frame(steer_world(settings, SteeringBy::velocities).seconds);
   const double pushed = median_frame(steer_world(settings, SteeringBy::frames).seconds);
+  const double game = median_frame(steer_world(settings, SteeringBy::game).seconds);
   table.row({std::uint64_t{bodies}, std::to_string(dimensions), 1e3 * grid, 1e3 * velocities, 1e3 * pushed,
-             velocities / grid, pushed / grid});
+             1e3 * game, velocities / grid, pushed / grid, game / velocities});
 }
 
 void bench_frames(const BenchOptions& options, const Report& report) {
@@ -138,9 +139,10 @@ void bench_frames(const BenchOptions& options, const Report& report) {
   if (!options.has(steered_part)) return;
   report.note(
       "All velocities change in each frame (\"steered\"): CPU time of a median frame, in ms, of the world by "
-      "set_velocities() and by push(), and of a uniform grid that looks at the end of each frame only.");
-  ResultTable steered(
-      {"n", "dimensions", "grid", "velocities", "push", "velocities_to_grid", "push_to_grid"});
+      "set_velocities(), by push() and as a GameWorld, and of a uniform grid that looks at the end of each "
+      "frame only.");
+  ResultTable steered({"n", "dimensions", "grid", "velocities", "push", "game", "velocities_to_grid",
+                       "push_to_grid", "game_to_velocities"});
   for (const int dimensions : {2, 3})
     for (const std::uint32_t bodies : settings.bodies)
       add_steered(steered, bodies, dimensions, settings.first_frames);

@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "kinesphere/body_map.hpp"
+#include "kinesphere/game_world.hpp"
 #include "kinesphere/motion/frame_motion.hpp"
 #include "kinesphere/world.hpp"
 
@@ -82,11 +83,15 @@ void listen(World& world, double until, const Probe& probe, SteeredFrames& steer
     steered.pairs.emplace_back(event.first.index, event.second.index);
 }
 
-SteeredFrames steer_by_velocities(Crowd& crowd, World& world, std::uint32_t frames) {
+std::vector<BodyDefinition> bodies_of(const Crowd& crowd) {
   std::vector<BodyDefinition> bodies;
   for (std::size_t k = 0; k < crowd.positions().size(); ++k)
     bodies.push_back({.radius = radius, .position = crowd.positions()[k], .velocity = crowd.velocities()[k]});
-  const std::vector<BodyId> ids = world.add_all(bodies).value();
+  return bodies;
+}
+
+SteeredFrames steer_by_velocities(Crowd& crowd, World& world, std::uint32_t frames) {
+  const std::vector<BodyId> ids = world.add_all(bodies_of(crowd)).value();
   double began = 0.0;
   const Probe probe = [&](std::span<const BodyId> asked, double time, std::span<State> states) {
     for (std::size_t k = 0; k < asked.size(); ++k) {
@@ -126,16 +131,36 @@ SteeredFrames steer_by_frames(Crowd& crowd, World& world, std::uint32_t frames) 
   return steered;
 }
 
+SteeredFrames steer_game(Crowd& crowd, const WorldDefinition& world, std::uint32_t frames) {
+  GameWorld game = GameWorld::create({.world = world}).value();
+  for (const BodyDefinition& body : bodies_of(crowd)) game.add(body).value();
+  SteeredFrames steered;
+  double latest = 0.0;
+  for (std::uint32_t frame = 1; frame <= frames; ++frame) {
+    crowd.steer();
+    const double begin = cpu_seconds();
+    game.set_velocities(crowd.velocities()).value();
+    const double next = frame / frames_per_second;
+    for (const Event& event : game.step(next - latest).value())
+      steered.pairs.emplace_back(event.first.index, event.second.index);
+    steered.seconds.push_back(cpu_seconds() - begin);
+    latest = next;
+    crowd.move();
+  }
+  return steered;
+}
+
 }  // namespace
 }  // namespace steering
 
 SteeredFrames steer_world(const SteeringSettings& settings, SteeringBy by) {
   steering::Crowd crowd(settings);
-  World world =
-      World::create({.dimensions = settings.dimensions, .contacts = ContactEvents::impacts}).value();
-  SteeredFrames steered = by == SteeringBy::velocities
-                              ? steering::steer_by_velocities(crowd, world, settings.frames)
-                              : steering::steer_by_frames(crowd, world, settings.frames);
+  const WorldDefinition definition{.dimensions = settings.dimensions, .contacts = ContactEvents::impacts};
+  World world = World::create(definition).value();
+  SteeredFrames steered =
+      by == SteeringBy::velocities ? steering::steer_by_velocities(crowd, world, settings.frames)
+      : by == SteeringBy::frames   ? steering::steer_by_frames(crowd, world, settings.frames)
+                                   : steering::steer_game(crowd, definition, settings.frames);
   steering::keep_each_once(steered.pairs);
   return steered;
 }

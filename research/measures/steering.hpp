@@ -25,6 +25,7 @@ struct SteeringSettings {
 enum class SteeringBy : std::uint8_t {
   velocities,  ///< World::set_velocities()
   frames,      ///< BodyMap::push(): positions of frames
+  game,        ///< GameWorld::set_velocities(): the world moves the crowd itself
 };
 
 struct SteeredFrames {

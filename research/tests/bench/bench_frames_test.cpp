@@ -71,7 +71,8 @@ TEST_F(BenchFrames, ACrowdThatIsSteeredStandsBesideAGrid) {
   const BenchRows table = BenchTest::table("steered.csv");
   ASSERT_EQ(table.size(), 1u + 2);
   for (std::size_t row = 0; row < 2; ++row)
-    for (const char* column : {"grid", "velocities", "push"}) EXPECT_GT(csv_number(table, row, column), 0.0);
+    for (const char* column : {"grid", "velocities", "push", "game"})
+      EXPECT_GT(csv_number(table, row, column), 0.0);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST(Steering, TheWorldFindsAllThatTheGridFinds) {
     const SteeredFrames seen = steer_grid(settings);
     ASSERT_FALSE(seen.pairs.empty());
     EXPECT_EQ(seen.seconds.size(), 30u);
-    for (const SteeringBy by : {SteeringBy::velocities, SteeringBy::frames}) {
+    for (const SteeringBy by : {SteeringBy::velocities, SteeringBy::frames, SteeringBy::game}) {
       const SteeredFrames told = steer_world(settings, by);
       EXPECT_EQ(told.seconds.size(), 30u);
       EXPECT_TRUE(std::ranges::includes(told.pairs, seen.pairs)) << dimensions << " dimensions";
