@@ -56,8 +56,8 @@ int main() {
   world.schedule({.time = 50.0, .period = 50.0}).value();
   world.run(200.0, source, respond, hear).value();
 
-  // dT/dt = -A T^(3/2) + B T^(1/2) R and dR/dt = B T^(3/2) - C T^(1/2) R, in three dimensions and in one unit:
-  // where R / T stays, d ln R = d ln T.
+  // dT/dt = -A T^(3/2) + B T^(1/2) R and dR/dt = B T^(3/2) - C T^(1/2) R, in three dimensions and in one
+  // unit: where R / T stays, d ln R = d ln T.
   const double q = rough.inertia, r = rough.restitution;
   const double eta = q * (1.0 + rough.tangential_restitution) / (2.0 * q + 2.0);
   const double a = (1.0 - r * r) / 4.0 + eta * (1.0 - eta), b = eta * eta / q, c = eta / q * (1.0 - eta / q);

@@ -53,7 +53,7 @@ python3 examples/streams/make_streams.py "$made"
 for stream in "$made"/*; do cmp "$stream" "examples/streams/${stream##*/}"; done
 
 # Each line of C++ in the guides stands in an example.
-for page in docs/games.md docs/worlds.md docs/running.md docs/recipes.md docs/from-box2d.md docs/distributed.md docs/lessons/*.md; do
+for page in docs/games.md docs/worlds.md docs/running.md docs/fluids.md docs/grains.md docs/recipes.md docs/from-box2d.md docs/distributed.md docs/lessons/*.md; do
   awk '/^```/ {on = $0 == "```cpp"; next} on && NF {print}' "$page" | while IFS= read -r line; do
     if ! grep -qxF -- "$line" examples/*.cpp; then
       echo "$page: no example has the line: $line" >&2

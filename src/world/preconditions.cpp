@@ -193,7 +193,8 @@ WorldDefinition World::Preconditions::domain_of(bool has_shape) const {
 Result<void> World::Preconditions::moved(BodyId id, const State& state) const {
   const Body& body = engine_->bodies()[id.index];
   BodyDefinition moved = engine_->bodies().definition_of(id.index);
-  if (auto valid = check_state(state, moved, id, domain_of(body.is_shaped() || body.is_rigid), call_); !valid) return valid;
+  if (auto valid = check_state(state, moved, id, domain_of(body.is_shaped() || body.is_rigid), call_); !valid)
+    return valid;
   moved.radius = engine_->bodies().radius_at(id.index, engine_->time());
   moved.position = state.position;
   moved.velocity = state.velocity;
