@@ -278,7 +278,8 @@ enum {
 typedef uint32_t ks_axes;
 enum { KS_AXIS_X = 1, KS_AXIS_Y = 2, KS_AXIS_Z = 4 };
 
-/// Selects the bodies that a body may touch (kinesphere/filter.hpp).
+/// Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other,
+/// unless both are in one group, which decides by its sign (kinesphere/filter.hpp).
 typedef struct ks_filter {
   uint64_t category;  ///< default 1
   uint64_t mask;      ///< default UINT64_MAX

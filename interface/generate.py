@@ -13,6 +13,7 @@ from pathlib import Path
 
 import c_test
 import cplusplus
+import csharp
 import header
 import rust
 
@@ -35,6 +36,8 @@ def files(interface: header.Interface, root: Path) -> dict[str, str]:
         "interface/fields.hpp": cplusplus.fields(interface, banner),
         "tests/c/record_defaults.c": c_test.defaults(interface, banner),
         "c/kinesphere-c.map": cplusplus.symbols(interface, banner),
+        "csharp/src/Native.cs": csharp.native(interface, banner),
+        "csharp/src/Records.cs": csharp.records(interface, banner),
         "rust/src/sys.rs": rust.sys(interface, banner),
         "rust/src/records.rs": rust.records(interface, banner),
     }

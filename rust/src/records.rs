@@ -224,7 +224,8 @@ impl fmt::Display for MonitorEventKind {
     }
 }
 
-/// Selects the bodies that a body may touch.
+/// Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other, unless
+/// both are in one group, which decides by its sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Filter {
     /// Default 1.
