@@ -513,7 +513,7 @@ typedef struct ks_body_view {
   ks_bool is_static;
   ks_bool sleeping;
   double report_time;
-  ks_box box;  ///< Contains the body from now until `box_end`.
+  ks_box box;  ///< Contains the body from now until box_end.
   double box_end;
   int64_t image[3];               ///< Boxes that it has travelled along periodic axes.
   ks_body_definition definition;  ///< Its state is that of the last report.
@@ -659,7 +659,7 @@ typedef struct ks_event {
   ks_bool already_touching;
   ks_senses senses;         ///< Of sensors: the body or bodies that sense the other one.
   ks_traits first_traits;   ///< sum of KS_TRAIT_...
-  ks_traits second_traits;  ///< All 0 for a wall.
+  ks_traits second_traits;  ///< None for a wall.
   uint32_t reserved;        ///< 0
   /// At `time`; of a static body one point of its shape. In periodic space the two are nearest images.
   ks_state first_state;

@@ -93,7 +93,7 @@ def is_callback(interface: Interface, function: Function) -> bool:
 
 
 def documented(text: str, indent: str, type: str = "") -> list[str]:
-    plain = meaning.plain(text, type)
+    plain = meaning.respelled(meaning.plain(text, type), camel)
     if not plain:
         return []
     plain = plain.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

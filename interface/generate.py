@@ -16,6 +16,7 @@ import cplusplus
 import csharp
 import header
 import rust
+import typescript
 
 banner = "Generated from include/kinesphere.h by interface/generate.py: change the header, and run that."
 begin, end = "generated from kinesphere.h: begin", "generated from kinesphere.h: end"
@@ -36,6 +37,7 @@ def files(interface: header.Interface, root: Path) -> dict[str, str]:
         "interface/fields.hpp": cplusplus.fields(interface, banner),
         "tests/c/record_defaults.c": c_test.defaults(interface, banner),
         "c/kinesphere-c.map": cplusplus.symbols(interface, banner),
+        "browser/package/src/records.ts": typescript.records(interface, banner),
         "csharp/src/Native.cs": csharp.native(interface, banner),
         "csharp/src/Records.cs": csharp.records(interface, banner),
         "rust/src/sys.rs": rust.sys(interface, banner),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from header import Enumeration, Enumerator, Field, Interface, Record
 
@@ -22,7 +23,8 @@ def plain(comment: str, type: str = "") -> str:
     text = text.replace("UINT64_MAX", "all bits").replace("INFINITY", "infinity")
     text = re.sub(r"\([^()]*(?:kinesphere/|\.hpp|\bks_)[^()]*\)", "", text)
     text = re.sub(r"(^|(?<=\. ))Fields(?: and ranges)?: [^.]*kinesphere/\S*\.hpp\.?", "", text)
-    text = " ".join(text.replace(" .", ".").split()).strip()
+    text = re.sub(r"; fields as in ks_\w+", "", text)
+    text = " ".join(re.sub(r" \.(?!\.)", ".", text).split())
     if re.search(r"\b(ks|KS)_", text):
         sentences = re.split(r"(?<=\.) ", text)
         text = " ".join(one for one in sentences if not re.search(r"\b(ks|KS)_", one))
@@ -35,6 +37,11 @@ def plain(comment: str, type: str = "") -> str:
     elif type == "ks_contacts":
         text = text.replace("default 3", "default `all`").replace("0: those", "by default those")
     return text[:1].upper() + text[1:] + ("" if text[-1:] in ".:" else ".") if text else ""
+
+
+def respelled(text: str, spell: Callable[[str], str]) -> str:
+    """A comment in which fields are spelled as a language spells them; names of enumerators have quotes."""
+    return re.sub(r"(?<![`\w])[a-z]+(?:_[a-z]+)+(?![`\w])", lambda found: spell(found[0]), text)
 
 
 def choices(enumeration: Enumeration) -> list:

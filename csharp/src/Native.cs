@@ -20,7 +20,7 @@ namespace Kinesphere
         {
             /// <summary>Free flight under `gravity`.</summary>
             Ballistic = 0,
-            /// <summary>Random accelerations up to acceleration_limits, new at multiples of `interval`.</summary>
+            /// <summary>Random accelerations up to AccelerationLimits, new at multiples of `interval`.</summary>
             RandomForces = 1,
             /// <summary>A game's frames: each body goes straight from its position in one frame to that in the
             /// next.</summary>

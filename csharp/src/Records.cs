@@ -171,7 +171,7 @@ namespace Kinesphere
         Native.Box box;
         /// <summary>&gt; 0 (length), default 1e-6: the largest gap of a contact.</summary>
         public double ContactTolerance;
-        /// <summary>&gt; contact_tolerance (length), default NaN, which is four tolerances: the gap at which a contact
+        /// <summary>&gt; ContactTolerance (length), default NaN, which is four tolerances: the gap at which a contact
         /// ends.</summary>
         public double SeparationDistance;
         /// <summary>&gt;= 0 (time): contacts of a body that follow each other sooner are `repeated`.</summary>
@@ -305,7 +305,7 @@ namespace Kinesphere
         internal void Require(string name) { Native.RequireDefault(structSize, "RigidDefinition", name); }
     }
 
-    /// <summary>As in C++.</summary>
+    /// <summary>Limits within which a body moves.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct MotionLimits
     {
@@ -398,7 +398,7 @@ namespace Kinesphere
         /// <summary>Of sensors: the body or bodies that sense the other one.</summary>
         public Senses Senses;
         public Traits FirstTraits;
-        /// <summary>All 0 for a wall.</summary>
+        /// <summary>None for a wall.</summary>
         public Traits SecondTraits;
         uint reserved;
         /// <summary>At `time`; of a static body one point of its shape. In periodic space the two are nearest
@@ -515,7 +515,7 @@ namespace Kinesphere
         double vertical;
     }
 
-    /// <summary>Limits of all tracks of a class; at least one of acceleration_limit and largest_speed is finite.</summary>
+    /// <summary>Limits of all tracks of a class; at least one of AccelerationLimit and LargestSpeed is finite.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct TrackClass
     {
@@ -716,8 +716,8 @@ namespace Kinesphere
         /// <summary>In [0, 1]: separations are enlarged for predictions by this part of the position errors of both
         /// tracks.</summary>
         public double PredictionErrorPart;
-        /// <summary>Default 1: the monitor watches shards shard_first,..., shard_first + shard_count - 1 of all pairs, out
-        /// of shard_of; a pair is in the shard that the lower of its ids modulo shard_of says.</summary>
+        /// <summary>Default 1: the monitor watches shards ShardFirst, ..., ShardFirst + ShardCount - 1 of all pairs, out of
+        /// ShardOf; a pair is in the shard that the lower of its ids modulo ShardOf says.</summary>
         public ulong ShardOf;
         /// <summary>The first one that it watches.</summary>
         public ulong ShardFirst;

@@ -411,7 +411,7 @@ impl Default for BodyDefinition {
     }
 }
 
-/// As `MotionLimits` in C++.
+/// Limits within which a body moves.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct MotionLimits {
     pub acceleration_limit: f64,
@@ -439,7 +439,7 @@ pub struct BodyView {
     pub is_static: bool,
     pub sleeping: bool,
     pub report_time: f64,
-    /// Contains the body from now until `box_end`.
+    /// Contains the body from now until box_end.
     pub bounds: Box3,
     pub bounds_end: f64,
     /// Boxes that it has travelled along periodic axes.
@@ -746,7 +746,7 @@ pub struct MonitorDefinition {
 /// A part of a [`MonitorDefinition`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// Default 1: the monitor watches shards shard_first,..., shard_first + shard_count - 1 of all pairs, out of
+    /// Default 1: the monitor watches shards shard_first, ..., shard_first + shard_count - 1 of all pairs, out of
     /// shard_of; a pair is in the shard that the lower of its ids modulo shard_of says.
     pub of: u64,
     /// The first one that it watches.
