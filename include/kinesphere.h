@@ -601,15 +601,26 @@ KS_API const char* ks_probe_reason_advice(ks_probe_reason reason);
 /// Kinds of events, in the order of their delivery within one instant. One of KS_EVENT_...
 typedef int32_t ks_event_kind;
 enum {
-  KS_EVENT_NONE = 0,             ///< nothing more happens until the time that was asked for
-  KS_EVENT_BOUND_VIOLATION = 1,  ///< A state contradicts the motion limits of its body.
+  KS_EVENT_NONE = 0,  ///< nothing more happens until the time that was asked for
+  /// A reported state contradicts the motion limits of its body.
+  KS_EVENT_BOUND_VIOLATION = 1,
+  /// Two bodies touch: their gap has come down to at most the contact tolerance.
   KS_EVENT_CONTACT_BEGIN = 2,
+  /// Two bodies that touched are apart: their gap has grown to the separation distance.
   KS_EVENT_CONTACT_END = 3,
+  /// A body touches a wall of the box.
   KS_EVENT_WALL_BEGIN = 4,
+  /// A body that touched a wall is clear of it.
   KS_EVENT_WALL_END = 5,
+  /// Time would have stopped at a contact deep within its tolerance; it goes on by its least step. The two
+  /// may come to overlap by more than the tolerance. If it comes often, a response does not part its bodies,
+  /// or a body reaches through a wall.
   KS_EVENT_ZENO_GUARD = 6,
+  /// The gap of two bodies has come down to a sensor distance.
   KS_EVENT_SENSOR_ENTER = 7,
+  /// The gap of two bodies that were within a sensor distance has grown beyond it.
   KS_EVENT_SENSOR_LEAVE = 8,
+  /// A body that slept is awake again.
   KS_EVENT_WOKE = 9
 };
 
@@ -1097,20 +1108,36 @@ static inline ks_track_report ks_default_track_report(void) {
 
 /// What the reports prove about two tracks and a separation. One of KS_VERDICT_...
 typedef int32_t ks_verdict;
-enum { KS_VERDICT_APART = 0, KS_VERDICT_UNDECIDED = 1, KS_VERDICT_WITHIN = 2 };
+enum {
+  /// The two certainly are not within the separation.
+  KS_VERDICT_APART = 0,
+  /// The reports prove neither of the other two.
+  KS_VERDICT_UNDECIDED = 1,
+  /// They certainly are within it, or outside of it by at most the tolerance.
+  KS_VERDICT_WITHIN = 2
+};
 
 /// Kinds of events of a monitor (kinesphere/monitor/monitor_event.hpp). One of KS_MONITOR_...
 typedef int32_t ks_monitor_event_kind;
 enum {
   KS_MONITOR_NONE = 0,  ///< nothing more happens until the time that was asked for
+  /// The verdict about two tracks and a separation changes.
   KS_MONITOR_VERDICT = 1,
+  /// If both go straight on, two tracks come within a separation, in its look-ahead time: no guarantee.
   KS_MONITOR_PREDICTED = 2,
+  /// They have passed each other, or a report shows that they will not come near.
   KS_MONITOR_PREDICTION_ENDED = 3,
+  /// A report contradicts the earlier ones of its track.
   KS_MONITOR_CONTRADICTION = 4,
+  /// A contradiction has ended: later reports show which one was wrong.
   KS_MONITOR_RESOLVED = 5,
+  /// The latest report of a track has reached the age stale_after.
   KS_MONITOR_STALE = 6,
+  /// A stale track has reported again.
   KS_MONITOR_RESUMED = 7,
+  /// A track was removed, or its latest report has reached the age drop_after.
   KS_MONITOR_DROPPED = 8,
+  /// A report has given the track another class; it starts anew. Comes before all others of its time.
   KS_MONITOR_RECLASSIFIED = 9
 };
 

@@ -8,6 +8,7 @@ Usage: generate.py [--check] [--root FOLDER]
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from pathlib import Path
 
@@ -15,20 +16,25 @@ import c_test
 import cplusplus
 import csharp
 import header
+import python
 import rust
 import typescript
 
 banner = "Generated from include/kinesphere.h by interface/generate.py: change the header, and run that."
-begin, end = "generated from kinesphere.h: begin", "generated from kinesphere.h: end"
+begin, end = "generated from kinesphere.h: ", "end of what is generated"
 
 
-def between_marks(path: Path, text: str) -> str:
-    """The text of a file of which a part is generated: the lines between two that have the marks."""
-    lines = path.read_text().splitlines(keepends=True)
-    marks = [k for k, line in enumerate(lines) if begin in line or end in line]
-    if len(marks) != 2 or begin not in lines[marks[0]] or end not in lines[marks[1]]:
-        raise header.HeaderError(f"{path}: a line with '{begin}' and one with '{end}' are expected")
-    return "".join([*lines[: marks[0] + 1], text, *lines[marks[1] :]])
+def between_marks(path: Path, parts: dict[str, str]) -> str:
+    """The text of a file that has generated parts: the lines between one with the name of the part and the next end."""
+    text = path.read_text()
+    for name, part in parts.items():
+        pattern = re.compile(
+            rf"^([^\n]*{re.escape(begin + name)}\n).*?(^[^\n]*{re.escape(end)}\n)", re.MULTILINE | re.DOTALL
+        )
+        text, count = pattern.subn(lambda found: found[1] + part + found[2], text)
+        if count != 1:
+            raise header.HeaderError(f"{path}: a line with '{begin}{name}' and one with '{end}' are expected")
+    return text
 
 
 def files(interface: header.Interface, root: Path) -> dict[str, str]:
@@ -38,6 +44,12 @@ def files(interface: header.Interface, root: Path) -> dict[str, str]:
         "tests/c/record_defaults.c": c_test.defaults(interface, banner),
         "c/kinesphere-c.map": cplusplus.symbols(interface, banner),
         "browser/package/src/records.ts": typescript.records(interface, banner),
+        "python/kinesphere/_kinesphere.pyi": between_marks(
+            root / "python/kinesphere/_kinesphere.pyi", python.stub_parts(interface)
+        ),
+        "python/kinesphere/kinds.py": python.kinds(interface, banner),
+        "python/module/definitions.hpp": python.bound_definitions(interface, banner),
+        "python/module/records.hpp": python.records(interface, banner),
         "csharp/src/Native.cs": csharp.native(interface, banner),
         "csharp/src/Records.cs": csharp.records(interface, banner),
         "rust/src/sys.rs": rust.sys(interface, banner),

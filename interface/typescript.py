@@ -277,10 +277,12 @@ def given_of(record: Record) -> list[str]:
     lines += ["}", "/** @internal */"]
     lines += wrapped(f"export const {stem(record)}FieldKeys: Keys<{name}> = {{ {keys} }};", 118, "", "  ")
     lines += ["/** @internal Writes the table that the module reads; what is not given has its default. */"]
+    statements = [written(one, at, one.name in required) for one, at in fields]
+    call = "call" if any("call" in one for one in statements) else "_call"
     lines += [
-        f"export function put{name}(numbers: Float64Array, at: number, given: {name}, call: string): void {{"
+        f"export function put{name}(numbers: Float64Array, at: number, given: {name}, {call}: string): void {{"
     ]
-    lines += [f"  {written(one, at, one.name in required)}" for one, at in fields] + ["}", ""]
+    lines += [*("  " + one for one in statements), "}", ""]
     return lines
 
 

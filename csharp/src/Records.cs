@@ -46,15 +46,25 @@ namespace Kinesphere
     {
         /// <summary>Nothing more happens until the time that was asked for.</summary>
         None = 0,
-        /// <summary>A state contradicts the motion limits of its body.</summary>
+        /// <summary>A reported state contradicts the motion limits of its body.</summary>
         BoundViolation = 1,
+        /// <summary>Two bodies touch: their gap has come down to at most the contact tolerance.</summary>
         ContactBegin = 2,
+        /// <summary>Two bodies that touched are apart: their gap has grown to the separation distance.</summary>
         ContactEnd = 3,
+        /// <summary>A body touches a wall of the box.</summary>
         WallBegin = 4,
+        /// <summary>A body that touched a wall is clear of it.</summary>
         WallEnd = 5,
+        /// <summary>Time would have stopped at a contact deep within its tolerance; it goes on by its least step. The two
+        /// may come to overlap by more than the tolerance. If it comes often, a response does not part its bodies, or a
+        /// body reaches through a wall.</summary>
         ZenoGuard = 6,
+        /// <summary>The gap of two bodies has come down to a sensor distance.</summary>
         SensorEnter = 7,
+        /// <summary>The gap of two bodies that were within a sensor distance has grown beyond it.</summary>
         SensorLeave = 8,
+        /// <summary>A body that slept is awake again.</summary>
         Woke = 9,
     }
 
@@ -115,8 +125,11 @@ namespace Kinesphere
     /// <summary>What the reports prove about two tracks and a separation.</summary>
     public enum Verdict
     {
+        /// <summary>The two certainly are not within the separation.</summary>
         Apart = 0,
+        /// <summary>The reports prove neither of the other two.</summary>
         Undecided = 1,
+        /// <summary>They certainly are within it, or outside of it by at most the tolerance.</summary>
         Within = 2,
     }
 
@@ -125,14 +138,25 @@ namespace Kinesphere
     {
         /// <summary>Nothing more happens until the time that was asked for.</summary>
         None = 0,
+        /// <summary>The verdict about two tracks and a separation changes.</summary>
         Verdict = 1,
+        /// <summary>If both go straight on, two tracks come within a separation, in its look-ahead time: no
+        /// guarantee.</summary>
         Predicted = 2,
+        /// <summary>They have passed each other, or a report shows that they will not come near.</summary>
         PredictionEnded = 3,
+        /// <summary>A report contradicts the earlier ones of its track.</summary>
         Contradiction = 4,
+        /// <summary>A contradiction has ended: later reports show which one was wrong.</summary>
         Resolved = 5,
+        /// <summary>The latest report of a track has reached the age StaleAfter.</summary>
         Stale = 6,
+        /// <summary>A stale track has reported again.</summary>
         Resumed = 7,
+        /// <summary>A track was removed, or its latest report has reached the age DropAfter.</summary>
         Dropped = 8,
+        /// <summary>A report has given the track another class; it starts anew. Comes before all others of its
+        /// time.</summary>
         Reclassified = 9,
     }
 

@@ -73,15 +73,25 @@ impl fmt::Display for ProbeReason {
 /// Kinds of events, in the order of their delivery within one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EventKind {
-    /// A state contradicts the motion limits of its body.
+    /// A reported state contradicts the motion limits of its body.
     BoundViolation = 1,
+    /// Two bodies touch: their gap has come down to at most the contact tolerance.
     ContactBegin = 2,
+    /// Two bodies that touched are apart: their gap has grown to the separation distance.
     ContactEnd = 3,
+    /// A body touches a wall of the box.
     WallBegin = 4,
+    /// A body that touched a wall is clear of it.
     WallEnd = 5,
+    /// Time would have stopped at a contact deep within its tolerance; it goes on by its least step. The two may come
+    /// to overlap by more than the tolerance. If it comes often, a response does not part its bodies, or a body
+    /// reaches through a wall.
     ZenoGuard = 6,
+    /// The gap of two bodies has come down to a sensor distance.
     SensorEnter = 7,
+    /// The gap of two bodies that were within a sensor distance has grown beyond it.
     SensorLeave = 8,
+    /// A body that slept is awake again.
     Woke = 9,
 }
 
@@ -156,8 +166,11 @@ impl BodyAction {
 /// What the reports prove about two tracks and a separation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Verdict {
+    /// The two certainly are not within the separation.
     Apart = 0,
+    /// The reports prove neither of the other two.
     Undecided = 1,
+    /// They certainly are within it, or outside of it by at most the tolerance.
     Within = 2,
 }
 
@@ -185,14 +198,23 @@ impl fmt::Display for Verdict {
 /// Kinds of events of a monitor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MonitorEventKind {
+    /// The verdict about two tracks and a separation changes.
     Verdict = 1,
+    /// If both go straight on, two tracks come within a separation, in its look-ahead time: no guarantee.
     Predicted = 2,
+    /// They have passed each other, or a report shows that they will not come near.
     PredictionEnded = 3,
+    /// A report contradicts the earlier ones of its track.
     Contradiction = 4,
+    /// A contradiction has ended: later reports show which one was wrong.
     Resolved = 5,
+    /// The latest report of a track has reached the age stale_after.
     Stale = 6,
+    /// A stale track has reported again.
     Resumed = 7,
+    /// A track was removed, or its latest report has reached the age drop_after.
     Dropped = 8,
+    /// A report has given the track another class; it starts anew. Comes before all others of its time.
     Reclassified = 9,
 }
 

@@ -472,7 +472,7 @@ export const monitorFieldKeys: Keys<MonitorFields> = { dimensions: "number", tol
   "number", window: "number", staleAfter: "number", dropAfter: "number", predictionHold: "number",
   predictionConfirmation: "number", predictionMargin: "number", predictionErrorPart: "number" };
 /** @internal Writes the table that the module reads; what is not given has its default. */
-export function putMonitorFields(numbers: Float64Array, at: number, given: MonitorFields, call: string): void {
+export function putMonitorFields(numbers: Float64Array, at: number, given: MonitorFields, _call: string): void {
   numbers[at + 0] = given.dimensions ?? 3;
   numbers[at + 1] = given.tolerance ?? 1e-3;
   numbers[at + 2] = given.timeResolution ?? 1e-3;
