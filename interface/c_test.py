@@ -1,8 +1,8 @@
-"""Writes tests/c/record_defaults.c: what the comments of kinesphere.h say of defaults is what the library sets."""
+"""Writes tests of the C interface: of the sizes of records, and that defaults are those of the comments."""
 
 from __future__ import annotations
 
-from header import Field, Interface, Record
+from header import Field, Interface, Record, layout
 
 
 def checks(interface: Interface, path: str, one: Field) -> list[str]:
@@ -39,3 +39,20 @@ def defaults(interface: Interface, banner: str) -> str:
     lines += ["int main(void) {"]
     lines += [f"  {one.name.removeprefix('ks_')}();" for one in made]
     return "\n".join([*lines, '  puts("all defaults are those of the header");', "  return 0;", "}", ""])
+
+
+def sizes(interface: Interface, banner: str) -> str:
+    """The text of record_sizes.c."""
+    lines = [
+        f"// {banner}",
+        "// Sizes of the records, on machines with 64-bit pointers. A change of this file breaks programs that have been",
+        "// compiled, so it needs another KS_ABI_VERSION; only records that begin with struct_size may grow, and the",
+        "// library then takes both sizes.",
+        "// clang-format off",
+        "#include <kinesphere.h>",
+        "",
+        "#define HAS_SIZE(record, size) _Static_assert(sizeof(void*) != 8 || sizeof(record) == (size), #record)",
+        "",
+    ]
+    lines += [f"HAS_SIZE({one.name}, {layout(interface, one)[1]});" for one in interface.records.values()]
+    return "\n".join([*lines, ""])

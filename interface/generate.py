@@ -16,6 +16,7 @@ import c_test
 import cplusplus
 import csharp
 import header
+import parity
 import python
 import rust
 import typescript
@@ -41,12 +42,14 @@ def files(interface: header.Interface, root: Path) -> dict[str, str]:
     """The text of each file that is generated, or of which a part is."""
     return {
         "interface/fields.hpp": cplusplus.fields(interface, banner),
+        "tests/c/record_sizes.c": c_test.sizes(interface, banner),
         "tests/c/record_defaults.c": c_test.defaults(interface, banner),
         "c/kinesphere-c.map": cplusplus.symbols(interface, banner),
         "browser/package/src/records.ts": typescript.records(interface, banner),
         "python/kinesphere/_kinesphere.pyi": between_marks(
             root / "python/kinesphere/_kinesphere.pyi", python.stub_parts(interface)
         ),
+        "docs/parity.md": parity.page(interface, banner),
         "python/kinesphere/kinds.py": python.kinds(interface, banner),
         "python/module/definitions.hpp": python.bound_definitions(interface, banner),
         "python/module/records.hpp": python.records(interface, banner),
