@@ -1,8 +1,8 @@
 // Generated from include/kinesphere.h by interface/generate.py: change the header, and run that.
+// clang-format off
 // Sizes of the records, on machines with 64-bit pointers. A change of this file breaks programs that have been
 // compiled, so it needs another KS_ABI_VERSION; only records that begin with struct_size may grow, and the
 // library then takes both sizes.
-// clang-format off
 #include <kinesphere.h>
 
 #define HAS_SIZE(record, size) _Static_assert(sizeof(void*) != 8 || sizeof(record) == (size), #record)
