@@ -50,6 +50,9 @@ class Generated(unittest.TestCase):
         self.assertEqual(run(self.folder, "--check").returncode, 0)
         return names
 
+    def assert_in(self, name: str, text: str) -> None:
+        self.assertIn(text, (self.folder / name).read_text())
+
     def test_files_are_up_to_date(self) -> None:
         found = run(root, "--check")
         self.assertEqual((found.returncode, found.stderr), (0, ""))
@@ -58,7 +61,7 @@ class Generated(unittest.TestCase):
         for name in self.names:
             text = (root / name).read_text()
             whole = f"{generate.begin}" not in text
-            self.assertTrue(not whole or generate.banner in text.splitlines()[0], name)
+            self.assertTrue(not whole or generate.banner.split(":")[0] in text.splitlines()[0], name)
 
     def test_a_stale_file_is_named(self) -> None:
         with (self.folder / "rust/src/sys.rs").open("a") as file:
@@ -66,6 +69,70 @@ class Generated(unittest.TestCase):
         found = run(self.folder, "--check")
         self.assertEqual(found.returncode, 1)
         self.assertEqual(found.stderr, "generate: stale: rust/src/sys.rs; run interface/generate.py\n")
+
+    def test_a_field_of_an_event_reaches_all_languages(self) -> None:
+        self.change(
+            r"(  double acceleration_limit;\n)(} ks_event;)", r"\1  double heat;  ///< Of a trial.\n\2"
+        )
+        self.assertEqual(
+            self.changed(),
+            {
+                "browser/package/src/records.ts",
+                "csharp/src/Records.cs",
+                "interface/fields.hpp",
+                "python/kinesphere/_kinesphere.pyi",
+                "python/module/records.hpp",
+                "rust/src/records.rs",
+                "rust/src/sys.rs",
+                "tests/c/record_sizes.c",
+            },
+        )
+        self.assert_in("browser/package/src/records.ts", "get heat(): number { return this.numbers[53]!; }")
+        self.assert_in("browser/package/src/records.ts", "export const eventSize = 54;")
+        self.assert_in("csharp/src/Records.cs", "public double Heat;")
+        self.assert_in("rust/src/records.rs", "            heat: raw.heat,")
+        self.assert_in("python/kinesphere/_kinesphere.pyi", "    def heat(self) -> float: ...")
+        self.assert_in("tests/c/record_sizes.c", "HAS_SIZE(ks_event, 408);")
+
+    def test_a_field_of_a_definition_and_its_default_reach_all_languages(self) -> None:
+        self.change(
+            r"(int32_t reserved;  ///< 0\n)(} ks_world_def)",
+            r"\1  double heat;  ///< >= 0, default 0.5: a trial.\n\2",
+        )
+        self.assertEqual(
+            self.changed(),
+            {
+                "browser/package/src/records.ts",
+                "csharp/src/Records.cs",
+                "interface/fields.hpp",
+                "python/kinesphere/_kinesphere.pyi",
+                "python/module/definitions.hpp",
+                "rust/src/records.rs",
+                "rust/src/sys.rs",
+                "tests/c/record_defaults.c",
+                "tests/c/record_sizes.c",
+            },
+        )
+        self.assert_in("browser/package/src/records.ts", "given.heat ?? 0.5;")
+        self.assert_in("rust/src/records.rs", "            heat: self.heat,")
+        self.assert_in("python/module/definitions.hpp", 'py::arg("heat") = 0.5,')
+        self.assert_in("python/kinesphere/_kinesphere.pyi", "        heat: float = 0.5,")
+        self.assert_in("tests/c/record_defaults.c", "CHECK(made.heat == 0.5);")
+
+    def test_a_kind_reaches_all_languages(self) -> None:
+        self.change(r"KS_EVENT_WOKE = 9", "KS_EVENT_WOKE = 9,\n  KS_EVENT_MELTED = 10")
+        self.changed()
+        self.assert_in("browser/package/src/records.ts", '"melted"')
+        self.assert_in("csharp/src/Records.cs", "Melted = 10,")
+        self.assert_in("python/kinesphere/kinds.py", "    melted = 9")
+        self.assert_in("rust/src/records.rs", "10 => EventKind::Melted,")
+
+    def test_a_function_needs_a_call_in_each_language_or_a_reason(self) -> None:
+        with self.header.open("a") as file:
+            file.write("KS_API ks_status ks_world_melt(ks_world world);\n")
+        found = run(self.folder)
+        self.assertEqual(found.returncode, 1)
+        self.assertIn("docs/parity.md: ks_world_melt: C++ declares no melt", found.stderr)
 
     def test_a_field_that_is_no_declaration_is_refused(self) -> None:
         self.change(r"  double gap;", "  double gap = 0;")
