@@ -166,10 +166,11 @@ def properties_of(interface: Interface, record: Record) -> list[str]:
                 (flag, f"{field}.{flag.removeprefix(field.removesuffix('traits'))}", bit.comment)
                 for flag, bit in flags
             ]
+        # pybind11 makes numbers of them itself.
+        is_number = one.type.name in ("double", "uint64_t", "uint32_t", "ks_bool", "ks_traits")
         for python, member, comment in parts:
-            lines += [
-                f'  visit("{python}", [](const {name}& from) {{ return object_of_field(from.{member}); }},'
-            ]
+            value = f"from.{member}" if is_number else f"object_of_field(from.{member})"
+            lines += [f'  visit("{python}", [](const {name}& from) {{ return {value}; }},']
             lines += [f'        "{documented(comment, one.type.name)}");']
     return [*lines, "}", ""]
 

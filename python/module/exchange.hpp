@@ -11,7 +11,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include "kinesphere/body.hpp"
@@ -155,8 +154,6 @@ py::object package_attribute(const char* module, const char* name);
 /// Returns "Name(part=..., part=...)", with attributes of these names.
 std::string text_of_parts(const py::object& self, std::span<const char* const> parts);
 // Fields of events and answers as objects of Python.
-template <class Number>
-requires std::is_arithmetic_v<Number> py::object object_of_field(Number number) { return py::cast(number); }
 inline py::object object_of_field(BodyId body) { return object_of(body); }
 inline py::object object_of_field(const Vec3& vector) { return array_of(vector); }
 py::object object_of_field(EventKind kind);

@@ -397,7 +397,7 @@ template <class Visit>
 void each_event_property(const Visit& visit) {
   visit("kind", [](const Event& from) { return object_of_field(from.kind); },
         "");
-  visit("time", [](const Event& from) { return object_of_field(from.time); },
+  visit("time", [](const Event& from) { return from.time; },
         "");
   visit("first", [](const Event& from) { return object_of_field(from.first); },
         "The body of the event or, for a pair, the body with the smaller id.");
@@ -405,25 +405,25 @@ void each_event_property(const Visit& visit) {
         "The other body of a pair; None for walls, bound violations and bodies that woke.");
   visit("wall", [](const Event& from) { return object_of_field(from.wall); },
         "The wall of a wall event.");
-  visit("repeated", [](const Event& from) { return object_of_field(from.repeated); },
+  visit("repeated", [](const Event& from) { return from.repeated; },
         "One of the two touched another body less than the Zeno interval ago: a response should take no energy here.");
-  visit("jammed", [](const Event& from) { return object_of_field(from.jammed); },
+  visit("jammed", [](const Event& from) { return from.jammed; },
         "Each of the two has had 64 contacts at this instant, as if stuck: a response should part them, or stop both.");
-  visit("already_touching", [](const Event& from) { return object_of_field(from.already_touching); },
+  visit("already_touching", [](const Event& from) { return from.already_touching; },
         "Of begins: the two have touched since an earlier begin, and approach again. To count contacts, count the others.");
   visit("senses", [](const Event& from) { return object_of_field(from.senses); },
         "Of sensors: the body or bodies that sense the other one.");
-  visit("first_is_static", [](const Event& from) { return object_of_field(from.first_traits.is_static); },
+  visit("first_is_static", [](const Event& from) { return from.first_traits.is_static; },
         "The body never moves.");
-  visit("first_is_zone", [](const Event& from) { return object_of_field(from.first_traits.is_zone); },
+  visit("first_is_zone", [](const Event& from) { return from.first_traits.is_zone; },
         "The body is not solid: it touches no other body.");
-  visit("first_is_sleeping", [](const Event& from) { return object_of_field(from.first_traits.is_sleeping); },
+  visit("first_is_sleeping", [](const Event& from) { return from.first_traits.is_sleeping; },
         "The body sleeps and stays asleep: contacts wake their bodies.");
-  visit("second_is_static", [](const Event& from) { return object_of_field(from.second_traits.is_static); },
+  visit("second_is_static", [](const Event& from) { return from.second_traits.is_static; },
         "The body never moves.");
-  visit("second_is_zone", [](const Event& from) { return object_of_field(from.second_traits.is_zone); },
+  visit("second_is_zone", [](const Event& from) { return from.second_traits.is_zone; },
         "The body is not solid: it touches no other body.");
-  visit("second_is_sleeping", [](const Event& from) { return object_of_field(from.second_traits.is_sleeping); },
+  visit("second_is_sleeping", [](const Event& from) { return from.second_traits.is_sleeping; },
         "The body sleeps and stays asleep: contacts wake their bodies.");
   visit("first_position", [](const Event& from) { return object_of_field(from.first_state.position); },
         "At `time`; of a static body one point of its shape. In periodic space the two are nearest images.");
@@ -437,27 +437,27 @@ void each_event_property(const Visit& visit) {
         "The middle of the gap between the two surfaces.");
   visit("normal", [](const Event& from) { return object_of_field(from.normal); },
         "Unit vector from `first` towards `second`, or towards the wall.");
-  visit("gap", [](const Event& from) { return object_of_field(from.gap); },
+  visit("gap", [](const Event& from) { return from.gap; },
         "Distance between the surfaces (length); negative when they overlap.");
-  visit("approach_speed", [](const Event& from) { return object_of_field(from.approach_speed); },
+  visit("approach_speed", [](const Event& from) { return from.approach_speed; },
         "Speed at which the gap closes (length / time); negative when it opens.");
-  visit("position_excess", [](const Event& from) { return object_of_field(from.position_excess); },
+  visit("position_excess", [](const Event& from) { return from.position_excess; },
         "Of a bound violation: how far the reported position lies outside the bound (length).");
-  visit("velocity_excess", [](const Event& from) { return object_of_field(from.velocity_excess); },
+  visit("velocity_excess", [](const Event& from) { return from.velocity_excess; },
         "Of a bound violation: by how much the velocity changed more than promised (length / time).");
-  visit("distance", [](const Event& from) { return object_of_field(from.distance); },
+  visit("distance", [](const Event& from) { return from.distance; },
         "Of a sensor: the sensor distance that was crossed (length).");
-  visit("first_user_data", [](const Event& from) { return object_of_field(from.first_user_data); },
+  visit("first_user_data", [](const Event& from) { return from.first_user_data; },
         "What the definition of the body gave.");
-  visit("second_user_data", [](const Event& from) { return object_of_field(from.second_user_data); },
+  visit("second_user_data", [](const Event& from) { return from.second_user_data; },
         "");
-  visit("first_mass", [](const Event& from) { return object_of_field(from.first_mass); },
+  visit("first_mass", [](const Event& from) { return from.first_mass; },
         "Of the body; infinite for a static body.");
-  visit("second_mass", [](const Event& from) { return object_of_field(from.second_mass); },
+  visit("second_mass", [](const Event& from) { return from.second_mass; },
         "Of the body; infinite for a static body and for a wall.");
-  visit("first_part", [](const Event& from) { return object_of_field(from.first_part); },
+  visit("first_part", [](const Event& from) { return from.first_part; },
         "Of a rigid body: the number of the part at the contact; of a mesh: that of the triangle; 0 for all others.");
-  visit("second_part", [](const Event& from) { return object_of_field(from.second_part); },
+  visit("second_part", [](const Event& from) { return from.second_part; },
         "");
   visit("first_angular_velocity", [](const Event& from) { return object_of_field(from.first_angular_velocity); },
         "Of a rigid body (radians / time); zero for all others.");
@@ -467,7 +467,7 @@ void each_event_property(const Visit& visit) {
         "Change of the angular velocity of a rigid body by a unit impulse along the normal (radians / (mass length)).");
   visit("second_spin_gain", [](const Event& from) { return object_of_field(from.second_spin_gain); },
         "");
-  visit("acceleration_limit", [](const Event& from) { return object_of_field(from.acceleration_limit); },
+  visit("acceleration_limit", [](const Event& from) { return from.acceleration_limit; },
         "Of a bound violation: the acceleration limit that the body has from now on (length / time^2).");
 }
 
@@ -476,23 +476,23 @@ template <class Visit>
 void each_monitor_event_property(const Visit& visit) {
   visit("kind", [](const MonitorEvent& from) { return object_of_field(from.kind); },
         "");
-  visit("time", [](const MonitorEvent& from) { return object_of_field(from.time); },
+  visit("time", [](const MonitorEvent& from) { return from.time; },
         "");
-  visit("first", [](const MonitorEvent& from) { return object_of_field(from.first); },
+  visit("first", [](const MonitorEvent& from) { return from.first; },
         "The track of the event; for a pair, the one with the lower id.");
-  visit("level", [](const MonitorEvent& from) { return object_of_field(from.level); },
+  visit("level", [](const MonitorEvent& from) { return from.level; },
         "Of a verdict or a prediction: the separation level.");
-  visit("since", [](const MonitorEvent& from) { return object_of_field(from.since); },
+  visit("since", [](const MonitorEvent& from) { return from.since; },
         "Time at which the verdict before began, -inf for a pair that was apart at all levels; of a prediction, time at which it began.");
-  visit("likely_time", [](const MonitorEvent& from) { return object_of_field(from.likely_time); },
+  visit("likely_time", [](const MonitorEvent& from) { return from.likely_time; },
         "Of a prediction: the time at which the two come within; inf if they never do.");
-  visit("closest_time", [](const MonitorEvent& from) { return object_of_field(from.closest_time); },
+  visit("closest_time", [](const MonitorEvent& from) { return from.closest_time; },
         "Of a prediction: the time of the closest approach.");
-  visit("closest_distance", [](const MonitorEvent& from) { return object_of_field(from.closest_distance); },
+  visit("closest_distance", [](const MonitorEvent& from) { return from.closest_distance; },
         "Of a prediction: the distance then (length); for a cylinder that in the plane.");
-  visit("position_excess", [](const MonitorEvent& from) { return object_of_field(from.position_excess); },
+  visit("position_excess", [](const MonitorEvent& from) { return from.position_excess; },
         "Of a contradiction: how far the position is outside of what was possible (length).");
-  visit("velocity_excess", [](const MonitorEvent& from) { return object_of_field(from.velocity_excess); },
+  visit("velocity_excess", [](const MonitorEvent& from) { return from.velocity_excess; },
         "Of a contradiction: how far the velocity is outside (length / time).");
 }
 
@@ -501,35 +501,35 @@ template <class Visit>
 void each_pair_answer_property(const Visit& visit) {
   visit("verdict", [](const PairAnswer& from) { return object_of_field(from.verdict); },
         "");
-  visit("predicted", [](const PairAnswer& from) { return object_of_field(from.predicted); },
+  visit("predicted", [](const PairAnswer& from) { return from.predicted; },
         "From `predicted` to `prediction_ended`.");
-  visit("since", [](const PairAnswer& from) { return object_of_field(from.since); },
+  visit("since", [](const PairAnswer& from) { return from.since; },
         "Time since which the verdict has held; -inf for a pair that is apart at all levels.");
-  visit("until", [](const PairAnswer& from) { return object_of_field(from.until); },
+  visit("until", [](const PairAnswer& from) { return from.until; },
         "A certain verdict is true until this time, whatever is reported.");
-  visit("lower", [](const PairAnswer& from) { return object_of_field(from.lower); },
+  visit("lower", [](const PairAnswer& from) { return from.lower; },
         "Lower limit of the distance now (length); for a cylinder, of that in the plane.");
-  visit("upper", [](const PairAnswer& from) { return object_of_field(from.upper); },
+  visit("upper", [](const PairAnswer& from) { return from.upper; },
         "Upper limit of it.");
-  visit("closest_distance", [](const PairAnswer& from) { return object_of_field(from.closest_distance); },
+  visit("closest_distance", [](const PairAnswer& from) { return from.closest_distance; },
         "Estimate, if both go straight on: distance at the closest approach; for a cylinder that in the plane.");
-  visit("closest_time", [](const PairAnswer& from) { return object_of_field(from.closest_time); },
+  visit("closest_time", [](const PairAnswer& from) { return from.closest_time; },
         "Estimate: the time of the closest approach.");
-  visit("closest_horizontal", [](const PairAnswer& from) { return object_of_field(from.closest_horizontal); },
+  visit("closest_horizontal", [](const PairAnswer& from) { return from.closest_horizontal; },
         "Estimate: the horizontal part of the distance at that time.");
-  visit("closest_vertical", [](const PairAnswer& from) { return object_of_field(from.closest_vertical); },
+  visit("closest_vertical", [](const PairAnswer& from) { return from.closest_vertical; },
         "Estimate: the vertical part.");
-  visit("relative_speed", [](const PairAnswer& from) { return object_of_field(from.relative_speed); },
+  visit("relative_speed", [](const PairAnswer& from) { return from.relative_speed; },
         "Estimate: speed of one relative to the other now.");
-  visit("likely_time", [](const PairAnswer& from) { return object_of_field(from.likely_time); },
+  visit("likely_time", [](const PairAnswer& from) { return from.likely_time; },
         "Estimate: time at which they first are within the separation; inf if they never are.");
-  visit("inevitable_by", [](const PairAnswer& from) { return object_of_field(from.inevitable_by); },
+  visit("inevitable_by", [](const PairAnswer& from) { return from.inevitable_by; },
         "The pair certainly is within at some time up to this one, whatever the tracks do within their limits.");
-  visit("avoidable_until", [](const PairAnswer& from) { return object_of_field(from.avoidable_until); },
+  visit("avoidable_until", [](const PairAnswer& from) { return from.avoidable_until; },
         "Estimate: if both go straight on until this time, no accelerations within their limits keep them out.");
-  visit("ask", [](const PairAnswer& from) { return object_of_field(from.ask); },
+  visit("ask", [](const PairAnswer& from) { return from.ask; },
         "The track whose report would tighten the bounds most.");
-  visit("ask_by", [](const PairAnswer& from) { return object_of_field(from.ask_by); },
+  visit("ask_by", [](const PairAnswer& from) { return from.ask_by; },
         "When that report is needed for the verdict to stay certain.");
 }
 
