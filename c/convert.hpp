@@ -107,6 +107,19 @@ inline void convert(const ks_error_bound& from, ErrorBound& to) {
                                   : ErrorBound::cylinder(from.horizontal, from.vertical);
 }
 
+/// A field on its way to a field of the other record.
+template <class From>
+struct Converted {
+  const From& from;
+  template <class To>
+  operator To() const {
+    To to;
+    convert(from, to);
+    return to;
+  }
+};
+inline constexpr auto converted = []<class From>(const From& from) { return Converted<From>{from}; };
+
 /// Visits the fields of two records, as interface/fields.hpp goes through them.
 inline constexpr auto convert_fields = [](const char* /*name*/, const auto& from, auto& to) {
   convert(from, to);

@@ -76,14 +76,12 @@ ks_body_definition c_body(const BodyDefinition& body) {
 
 ErrorBound bound_of(std::string_view call, const ks_error_bound& bound) {
   require_number(call, "bound.kind", bound.kind, KS_BOUND_BALL, KS_BOUND_CYLINDER);
-  ErrorBound converted;
-  convert(bound, converted);
-  return converted;
+  return converted(bound);
 }
 
 ks_event c_event(const Event& event) {
-  ks_event record{.struct_size = sizeof record};
-  fields::each_event_field(convert_fields, event, record);
+  auto record = fields::make_event<ks_event>(event, converted);
+  record.struct_size = sizeof record;
   return record;
 }
 
@@ -100,9 +98,7 @@ Event event_of(std::string_view call, const ks_event& given) {
   require_number(call, "event.kind", given.kind, KS_EVENT_BOUND_VIOLATION, KS_EVENT_WOKE);
   require_number(call, "event.wall", given.wall, KS_WALL_NONE, KS_WALL_Z_UPPER);
   require_number(call, "event.senses", given.senses, 0, KS_SENSES_FIRST | KS_SENSES_SECOND);
-  Event event;
-  fields::each_event_field(convert_fields, given, event);
-  return event;
+  return fields::make_event<Event>(given, converted);
 }
 
 PairFilter pair_filter_of(ks_pair_filter filter, void* user) {

@@ -47,6 +47,18 @@ def walk(record: Record) -> list[str]:
     return [*lines, "}", ""]
 
 
+def made(record: Record) -> list[str]:
+    """A record of the same fields in one expression, which is faster than to fill one that has its defaults."""
+    short = record.name.removeprefix("ks_")
+    lines = [
+        "/// Returns a record whose fields are convert(field of `from`), and the others those of an empty one."
+    ]
+    lines += ["template <class To, class From, class Convert>"]
+    lines += [f"constexpr To make_{short}(const From& from, const Convert& convert) {{", "  return {"]
+    lines += [f"      .{name} = convert(from.{name})," for name in walked_fields(record)]
+    return [*lines, "  };", "}", ""]
+
+
 def fields(interface: Interface, banner: str) -> str:
     """The text of fields.hpp."""
     lines = [
@@ -61,6 +73,7 @@ def fields(interface: Interface, banner: str) -> str:
     ]
     for name in walked:
         lines += walk(interface.records["ks_" + name])
+    lines += made(interface.records["ks_event"])
     return "\n".join([*lines, "}  // namespace kinesphere::fields", ""])
 
 

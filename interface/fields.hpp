@@ -198,4 +198,42 @@ constexpr void each_track_place_field(Visit&& visit, Records&... records) {
   visit("radius", records.radius...);
 }
 
+/// Returns a record whose fields are convert(field of `from`), and the others those of an empty one.
+template <class To, class From, class Convert>
+constexpr To make_event(const From& from, const Convert& convert) {
+  return {
+      .kind = convert(from.kind),
+      .time = convert(from.time),
+      .first = convert(from.first),
+      .second = convert(from.second),
+      .wall = convert(from.wall),
+      .repeated = convert(from.repeated),
+      .jammed = convert(from.jammed),
+      .already_touching = convert(from.already_touching),
+      .senses = convert(from.senses),
+      .first_traits = convert(from.first_traits),
+      .second_traits = convert(from.second_traits),
+      .first_state = convert(from.first_state),
+      .second_state = convert(from.second_state),
+      .point = convert(from.point),
+      .normal = convert(from.normal),
+      .gap = convert(from.gap),
+      .approach_speed = convert(from.approach_speed),
+      .position_excess = convert(from.position_excess),
+      .velocity_excess = convert(from.velocity_excess),
+      .distance = convert(from.distance),
+      .first_user_data = convert(from.first_user_data),
+      .second_user_data = convert(from.second_user_data),
+      .first_mass = convert(from.first_mass),
+      .second_mass = convert(from.second_mass),
+      .first_part = convert(from.first_part),
+      .second_part = convert(from.second_part),
+      .first_angular_velocity = convert(from.first_angular_velocity),
+      .second_angular_velocity = convert(from.second_angular_velocity),
+      .first_spin_gain = convert(from.first_spin_gain),
+      .second_spin_gain = convert(from.second_spin_gain),
+      .acceleration_limit = convert(from.acceleration_limit),
+  };
+}
+
 }  // namespace kinesphere::fields
