@@ -56,7 +56,7 @@ ks_event c_event(const Event& event);
 /// Writes what an advance returned, with the world at `time`.
 void write_next(const std::optional<Event>& next, double time, ks_event* event);
 /// Throws BadResult unless the event is one that c_event() can have made.
-Event event_of(std::string_view call, const ks_event& event);
+Event event_of(std::string_view call, const ks_event& given);
 
 /// Throws BadResult if an array or a hull is missing.
 std::vector<RigidPart> parts_of(std::string_view call, const ks_rigid_definition& rigid);

@@ -15,17 +15,19 @@ namespace kinesphere::browser {
 
 /// How many numbers a field takes.
 template <class Field>
-constexpr std::size_t width = std::same_as<Field, State> ? 6
-                              : std::same_as<Field, Vec3> || std::same_as<Field, Axes> ||
-                                      std::same_as<Field, Filter> || std::same_as<Field, ErrorBound>
-                                  ? 3
-                                  : 1;
+constexpr std::size_t width() {
+  if (std::same_as<Field, State>) return 6;
+  return std::same_as<Field, Vec3> || std::same_as<Field, Axes> || std::same_as<Field, Filter> ||
+                 std::same_as<Field, ErrorBound>
+             ? 3
+             : 1;
+}
 /// Adds up the widths of the fields that it visits.
 struct NumberCounter {
   std::size_t* count;
   template <class Field>
   constexpr void operator()(const char* /*name*/, const Field& /*field*/) const {
-    *count += width<Field>;
+    *count += width<Field>();
   }
 };
 
