@@ -59,7 +59,7 @@ names = {
     "ks_world_cast": ("ray_cast, sphere_cast", "ray_cast, sphere_cast", "rayCast, sphereCast"),
     "ks_world_recording": ("stop_recording", "stop_recording", "stopRecording"),
     "ks_replay_open": ("Replay::open", "Replay", "Replay"),
-    "ks_replay_steps": ("steps", "steps", "step, stepCount"),
+    "ks_replay_steps": ("step, step_count", "step, step_count", "step, stepCount"),
     "ks_replay_hash": ("hash", "hash", "hash"),
     "ks_monitor_create": ("Monitor::create", "Monitor", "Monitor"),
     "ks_monitor_places": ("track", "track", "track"),
@@ -80,10 +80,6 @@ wrappers = {
 
 # Why a language lacks a call of C, and what does the same there.
 lacking = {
-    (
-        "ks_replay_hash",
-        "JavaScript",
-    ): "`Replay.finished` says whether the world has ended as the recorded one did.",
     (
         "ks_world_reserve",
         "JavaScript",
