@@ -283,11 +283,9 @@ ks_status ks_world_set_mass(ks_world world, ks_body_id body, double mass) {
 ks_status ks_world_set_motion_limits(ks_world world, ks_body_id body, const ks_motion_limits* limits) {
   return change_body(__func__, world, body, [&, call = __func__](World& of, BodyId id) {
     require_pointer(call, limits, "limits");
-    return of.change(
-        id, {.motion_limits = MotionLimits{.acceleration_limit = limits->acceleration_limit,
-                                           .planned_acceleration = vector_of(limits->planned_acceleration),
-                                           .position_error = limits->position_error,
-                                           .velocity_error = limits->velocity_error}});
+    MotionLimits promised;
+    fields::each_motion_limits_field(convert_fields, *limits, promised);
+    return of.change(id, {.motion_limits = promised});
   });
 }
 

@@ -86,6 +86,12 @@ void write_record(const Record& record, Record* caller, std::uint32_t struct_siz
   sized.struct_size = struct_size;
   std::memcpy(static_cast<void*>(caller), &sized, struct_size);
 }
+/// Returns the caller's record, of a known size; what it lacks is that of `rest`.
+template <class Record>
+Record read_record(const Record& caller, Record rest) {
+  std::memcpy(static_cast<void*>(&rest), &caller, caller.struct_size);
+  return rest;
+}
 template <class Record>
 void require_records(std::string_view call, const Record* records, std::size_t count, const char* argument) {
   require_array(call, records, count, argument);

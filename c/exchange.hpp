@@ -9,14 +9,9 @@
 #include <vector>
 
 #include "boundary.hpp"
-#include "kinesphere/body.hpp"
+#include "convert.hpp"
 #include "kinesphere/certificates.hpp"
-#include "kinesphere/event.hpp"
-#include "kinesphere/filter.hpp"
-#include "kinesphere/monitor/report.hpp"
-#include "kinesphere/probe.hpp"
 #include "kinesphere/response.hpp"
-#include "kinesphere/rigid_body.hpp"
 #include "kinesphere/shape.hpp"
 
 namespace kinesphere::c {
@@ -42,30 +37,6 @@ inline ks_rotation* c_rotations(std::span<Rotation> rotations) {
 }
 inline ks_state* c_states(std::span<State> states) { return reinterpret_cast<ks_state*>(states.data()); }
 
-/// Returns `bit` if it is set, else 0: for records with sums of bits.
-inline std::uint32_t bit_of(bool set, std::uint32_t bit) { return set ? bit : 0; }
-
-inline BodyId id_of(ks_body_id id) { return {id.index, id.generation, id.world}; }
-inline ks_body_id c_id(BodyId id) { return {id.index, id.generation, id.world}; }
-inline Vec3 vector_of(const ks_vec3& v) { return {v.x, v.y, v.z}; }
-inline ks_vec3 c_vector(const Vec3& v) { return {v.x, v.y, v.z}; }
-inline State state_of(const ks_state& state) {
-  return {vector_of(state.position), vector_of(state.velocity)};
-}
-inline ks_state c_state(const State& state) { return {c_vector(state.position), c_vector(state.velocity)}; }
-inline Rotation rotation_of(const ks_rotation& rotation) {
-  const auto& [w, x, y, z] = rotation.orientation;
-  return {{w, x, y, z}, vector_of(rotation.angular_velocity)};
-}
-inline ks_rotation c_rotation(const Rotation& rotation) {
-  const auto& [w, x, y, z] = rotation.orientation;
-  return {{w, x, y, z}, c_vector(rotation.angular_velocity)};
-}
-inline Box box_of(const ks_box& box) { return {vector_of(box.lower), vector_of(box.upper)}; }
-inline ks_box c_box(const Box& box) { return {c_vector(box.lower), c_vector(box.upper)}; }
-inline Filter filter_of(const ks_filter& filter) { return {filter.category, filter.mask, filter.group}; }
-inline ks_filter c_filter(const Filter& filter) { return {filter.category, filter.mask, filter.group}; }
-
 // Numbers that stand for enumerators are refused, as out_of_range, if they stand for none.
 
 /// Throws BadResult unless `number` is in [least, most].
@@ -80,13 +51,12 @@ void refuse_zeros(std::string_view call, const ks_filter& filter, std::int32_t s
 BodyDefinition body_of(std::string_view call, const ks_body_definition& body);
 ks_body_definition c_body(const BodyDefinition& body);
 ErrorBound bound_of(std::string_view call, const ks_error_bound& bound);
-ks_error_bound c_bound(const ErrorBound& bound);
 
 ks_event c_event(const Event& event);
 /// Writes what an advance returned, with the world at `time`.
 void write_next(const std::optional<Event>& next, double time, ks_event* event);
 /// Throws BadResult unless the event is one that c_event() can have made.
-Event event_of(std::string_view call, const ks_event& event);
+Event event_of(std::string_view call, const ks_event& given);
 
 /// Throws BadResult if an array or a hull is missing.
 std::vector<RigidPart> parts_of(std::string_view call, const ks_rigid_definition& rigid);

@@ -10,20 +10,12 @@ namespace kinesphere::c {
 namespace {
 
 ks_monitor_definition c_monitor(const MonitorDefinition& definition) {
-  return {.struct_size = sizeof(ks_monitor_definition),
-          .dimensions = definition.dimensions,
-          .tolerance = definition.tolerance,
-          .time_resolution = definition.time_resolution,
-          .window = definition.window,
-          .stale_after = definition.stale_after,
-          .drop_after = definition.drop_after,
-          .prediction_hold = definition.prediction_hold,
-          .prediction_confirmation = definition.prediction_confirmation,
-          .prediction_margin = definition.prediction_margin,
-          .prediction_error_part = definition.prediction_error_part,
-          .shard_of = definition.shard.of,
-          .shard_first = definition.shard.first,
-          .shard_count = definition.shard.count};
+  ks_monitor_definition record{.struct_size = sizeof record,
+                               .shard_of = definition.shard.of,
+                               .shard_first = definition.shard.first,
+                               .shard_count = definition.shard.count};
+  fields::each_monitor_definition_field(convert_fields, definition, record);
+  return record;
 }
 
 SeparationRule rule_of(std::string_view call, const ks_separation_rule& given) {
@@ -31,24 +23,14 @@ SeparationRule rule_of(std::string_view call, const ks_separation_rule& given) {
   require_array(call, given.levels, given.level_count, "definition.separations.levels");
   for (const ks_separation& level : std::span(given.levels, given.level_count)) {
     require_number(call, "separation.shape", level.shape, KS_SEPARATION_ELLIPSOID, KS_SEPARATION_WELL_CLEAR);
-    rule.levels.push_back({static_cast<Separation::Shape>(level.shape), level.horizontal, level.vertical,
-                           level.look_ahead, level.modified_tau});
+    fields::each_separation_field(convert_fields, level, rule.levels.emplace_back());
   }
   return rule;
 }
 
 MonitorDefinition monitor_of(std::string_view call, const ks_monitor_definition& given) {
-  MonitorDefinition definition{.dimensions = given.dimensions,
-                               .tolerance = given.tolerance,
-                               .time_resolution = given.time_resolution,
-                               .window = given.window,
-                               .stale_after = given.stale_after,
-                               .drop_after = given.drop_after,
-                               .prediction_hold = given.prediction_hold,
-                               .prediction_confirmation = given.prediction_confirmation,
-                               .prediction_margin = given.prediction_margin,
-                               .prediction_error_part = given.prediction_error_part,
-                               .shard = {given.shard_of, given.shard_first, given.shard_count}};
+  MonitorDefinition definition{.shard = {given.shard_of, given.shard_first, given.shard_count}};
+  fields::each_monitor_definition_field(convert_fields, given, definition);
   if (given.has_start_time) definition.start_time = given.start_time;
   require_array(call, given.classes, given.class_count, "definition.classes");
   for (const ks_track_class& one : std::span(given.classes, given.class_count))
@@ -62,26 +44,21 @@ MonitorDefinition monitor_of(std::string_view call, const ks_monitor_definition&
 
 ks_track_report c_report(const TrackReport& report) {
   const TrackReport::Plan plan = report.plan.value_or(TrackReport::Plan{});
-  return {.struct_size = sizeof(ks_track_report),
-          .has_plan = report.plan.has_value(),
-          .track_class = report.track_class,
-          .timestamp = report.timestamp,
-          .timestamp_error = report.timestamp_error,
-          .state = c_state(report.state),
-          .position_error = c_bound(report.position_error),
-          .velocity_error = c_bound(report.velocity_error),
-          .plan_acceleration = c_vector(plan.acceleration),
-          .plan_limit = c_bound(plan.acceleration_limit),
-          .plan_valid_until = plan.valid_until};
+  ks_track_report record{.struct_size = sizeof record,
+                         .has_plan = report.plan.has_value(),
+                         .plan_acceleration = c_vector(plan.acceleration),
+                         .plan_valid_until = plan.valid_until};
+  convert(plan.acceleration_limit, record.plan_limit);
+  fields::each_track_report_field(convert_fields, report, record);
+  return record;
 }
 
 TrackReport report_of(std::string_view call, const ks_track_report& given) {
-  TrackReport report{.timestamp = given.timestamp,
-                     .state = state_of(given.state),
-                     .position_error = bound_of(call, given.position_error),
-                     .velocity_error = bound_of(call, given.velocity_error),
-                     .timestamp_error = given.timestamp_error,
-                     .track_class = given.track_class};
+  // Checks their kinds.
+  bound_of(call, given.position_error);
+  bound_of(call, given.velocity_error);
+  TrackReport report;
+  fields::each_track_report_field(convert_fields, given, report);
   if (given.has_plan) {
     report.plan = {vector_of(given.plan_acceleration), bound_of(call, given.plan_limit),
                    given.plan_valid_until};
@@ -90,41 +67,39 @@ TrackReport report_of(std::string_view call, const ks_track_report& given) {
 }
 
 ks_monitor_event c_event(const MonitorEvent& event) {
-  return {.struct_size = sizeof(ks_monitor_event),
-          .kind = KS_MONITOR_VERDICT + static_cast<ks_monitor_event_kind>(event.kind),
-          .time = event.time,
-          .first = event.first,
-          .second = event.second,
-          .level = event.level,
-          .verdict = static_cast<ks_verdict>(event.verdict),
-          .before = static_cast<ks_verdict>(event.before),
-          .reserved = 0,
-          .since = event.since,
-          .likely_time = event.likely_time,
-          .closest_time = event.closest_time,
-          .closest_distance = event.closest_distance,
-          .position_excess = event.position_excess,
-          .velocity_excess = event.velocity_excess};
+  ks_monitor_event record{.struct_size = sizeof record};
+  fields::each_monitor_event_field(convert_fields, event, record);
+  return record;
 }
 
 ks_pair_answer c_answer(const PairAnswer& answer) {
-  return {.struct_size = sizeof(ks_pair_answer),
-          .verdict = static_cast<ks_verdict>(answer.verdict),
-          .predicted = answer.predicted,
-          .since = answer.since,
-          .until = answer.until,
-          .lower = answer.lower,
-          .upper = answer.upper,
-          .closest_distance = answer.closest_distance,
-          .closest_time = answer.closest_time,
-          .closest_horizontal = answer.closest_horizontal,
-          .closest_vertical = answer.closest_vertical,
-          .relative_speed = answer.relative_speed,
-          .likely_time = answer.likely_time,
-          .inevitable_by = answer.inevitable_by,
-          .avoidable_until = answer.avoidable_until,
-          .ask = answer.ask,
-          .ask_by = answer.ask_by};
+  ks_pair_answer record{.struct_size = sizeof record};
+  fields::each_pair_answer_field(convert_fields, answer, record);
+  return record;
+}
+
+ks_open_pair c_open(const OpenPair& pair) {
+  ks_open_pair record;
+  fields::each_open_pair_field(convert_fields, pair, record);
+  return record;
+}
+
+ks_predicted_pair c_predicted(const PredictedPair& pair) {
+  ks_predicted_pair record;
+  fields::each_predicted_pair_field(convert_fields, pair, record);
+  return record;
+}
+
+ks_report_request c_request(const ReportRequest& request) {
+  ks_report_request record;
+  fields::each_report_request_field(convert_fields, request, record);
+  return record;
+}
+
+ks_track_place c_place(const TrackView::Place& place) {
+  ks_track_place record;
+  fields::each_track_place_field(convert_fields, place, record);
+  return record;
 }
 
 /// Asks a poll of C for reports.
@@ -243,11 +218,7 @@ ks_status ks_monitor_tracks(ks_monitor monitor, uint64_t* tracks, size_t capacit
 ks_status ks_monitor_places(ks_monitor monitor, uint64_t track, ks_track_place* places, size_t capacity,
                             size_t* count) {
   return reading(__func__, monitor, [&, call = __func__](const MonitorObject& object) {
-    write_all(
-        call, object.monitor.track(track).value().places, places, capacity, count,
-        [](const TrackView::Place& place) {
-          return ks_track_place{c_vector(place.centre), c_vector(place.velocity), c_bound(place.radius)};
-        });
+    write_all(call, object.monitor.track(track).value().places, places, capacity, count, c_place);
   });
 }
 
@@ -261,29 +232,20 @@ ks_status ks_monitor_answer(ks_monitor monitor, uint64_t first, uint64_t second,
 
 ks_status ks_monitor_open_pairs(ks_monitor monitor, ks_open_pair* pairs, size_t capacity, size_t* count) {
   return reading(__func__, monitor, [&, call = __func__](const MonitorObject& object) {
-    write_all(call, object.monitor.open_pairs(), pairs, capacity, count, [](const OpenPair& pair) {
-      return ks_open_pair{pair.first, pair.second, pair.level, static_cast<ks_verdict>(pair.verdict),
-                          pair.since};
-    });
+    write_all(call, object.monitor.open_pairs(), pairs, capacity, count, c_open);
   });
 }
 
 ks_status ks_monitor_predicted_pairs(ks_monitor monitor, ks_predicted_pair* pairs, size_t capacity,
                                      size_t* count) {
   return reading(__func__, monitor, [&, call = __func__](const MonitorObject& object) {
-    write_all(call, object.monitor.predicted_pairs(), pairs, capacity, count, [](const PredictedPair& pair) {
-      return ks_predicted_pair{pair.first,       pair.second,       pair.level,           pair.since,
-                               pair.likely_time, pair.closest_time, pair.closest_distance};
-    });
+    write_all(call, object.monitor.predicted_pairs(), pairs, capacity, count, c_predicted);
   });
 }
 
 ks_status ks_monitor_needed(ks_monitor monitor, double until, ks_report_request* requests, size_t capacity,
                             size_t* count) {
   return reading(__func__, monitor, [&, call = __func__](const MonitorObject& object) {
-    write_all(call, object.monitor.needed(until), requests, capacity, count,
-              [](const ReportRequest& request) {
-                return ks_report_request{request.track, request.other, request.by};
-              });
+    write_all(call, object.monitor.needed(until), requests, capacity, count, c_request);
   });
 }

@@ -11,40 +11,21 @@ namespace kinesphere::c {
 namespace {
 
 ks_world_definition c_world(const WorldDefinition& definition) {
-  return {.struct_size = sizeof(ks_world_definition),
-          .dimensions = definition.dimensions,
-          .has_box = definition.box.has_value(),
-          .periodic = bit_of(definition.periodic.x, KS_AXIS_X) | bit_of(definition.periodic.y, KS_AXIS_Y) |
-                      bit_of(definition.periodic.z, KS_AXIS_Z),
-          .box = c_box(definition.box.value_or(Box{})),
-          .contact_tolerance = definition.contact_tolerance,
-          .separation_distance = definition.separation_distance,
-          .zeno_interval = definition.zeno_interval,
-          .start_time = definition.start_time,
-          .contacts = static_cast<ks_contacts>(definition.contacts),
-          .allow_overlap = definition.allow_overlap,
-          .spread_window_starts = definition.spread_window_starts,
-          .has_wall_filter = definition.wall_filter.has_value(),
-          .wall_filter = c_filter(definition.wall_filter.value_or(Filter{})),
-          .adopt_observed_limits = definition.adopt_observed_limits,
-          .reserved = 0};
+  ks_world_definition record{.struct_size = sizeof record,
+                             .has_box = definition.box.has_value(),
+                             .box = c_box(definition.box.value_or(Box{})),
+                             .has_wall_filter = definition.wall_filter.has_value(),
+                             .wall_filter = c_filter(definition.wall_filter.value_or(Filter{}))};
+  fields::each_world_definition_field(convert_fields, definition, record);
+  return record;
 }
 
-WorldDefinition world_of(std::string_view call, const ks_world_definition& given) {
+WorldDefinition world_of(std::string_view call, const ks_world_definition& caller) {
+  const ks_world_definition given = read_record(caller, c_world({}));
   require_number(call, "contacts", given.contacts, KS_CONTACTS_IMPACTS, KS_CONTACTS_ALL);
   require_number(call, "periodic", given.periodic, 0, KS_AXIS_X | KS_AXIS_Y | KS_AXIS_Z);
-  WorldDefinition definition{
-      .periodic = {(given.periodic & KS_AXIS_X) != 0, (given.periodic & KS_AXIS_Y) != 0,
-                   (given.periodic & KS_AXIS_Z) != 0},
-      .dimensions = given.dimensions,
-      .contact_tolerance = given.contact_tolerance,
-      .separation_distance = given.separation_distance,
-      .contacts = static_cast<ContactEvents>(given.contacts),
-      .allow_overlap = given.allow_overlap != 0,
-      .zeno_interval = given.zeno_interval,
-      .start_time = given.start_time,
-      .spread_window_starts = given.spread_window_starts != 0};
-  if (given.struct_size == sizeof given) definition.adopt_observed_limits = given.adopt_observed_limits != 0;
+  WorldDefinition definition;
+  fields::each_world_definition_field(convert_fields, given, definition);
   const Box box = box_of(given.box);
   if (given.has_box) {
     definition.box = box;

@@ -41,7 +41,9 @@
 // Records. A record that begins with struct_size may get more fields in later versions of the library. A
 // function ks_default_...() or ks_new_...() sets struct_size; a size that this library does not know is
 // refused, and so is a body whose filter, solid and mass are 0, as in a record filled from zeros. All other
-// records stay as they are for as long as KS_ABI_VERSION does. Bool fields are int32_t: 0 means false.
+// records stay as they are for as long as KS_ABI_VERSION does. A ks_bool is an int32_t: 0 means
+// false. `default` in the comment of a field says what its function ks_default_...() sets; for others it sets
+// 0.
 //
 // Arrays. A call that fills an array takes its capacity, sets *count to the number of elements that there
 // are, and fails with KS_ERROR_BUFFER_TOO_SMALL if they do not fit; the array is then untouched. An array
@@ -128,6 +130,9 @@ enum {
   KS_ERROR_DIVERGED = 48
 };
 
+/// 0 means false; the library writes 1 for true.
+typedef int32_t ks_bool;
+
 /// Names a body until it is removed. Two ids are of one body if index and generation are equal. `world` is a
 /// tag of the world that issued the id, by which others refuse it; 0 is accepted by all worlds.
 typedef struct ks_body_id {
@@ -137,11 +142,11 @@ typedef struct ks_body_id {
 } ks_body_id;
 
 /// Returns true for the id that names no body, such as the second one of a wall event.
-static inline int32_t ks_is_no_body(ks_body_id body) {
+static inline ks_bool ks_is_no_body(ks_body_id body) {
   return body.index == UINT32_MAX && body.generation == 0;
 }
 /// Returns true if both ids name one body.
-static inline int32_t ks_same_body(ks_body_id a, ks_body_id b) {
+static inline ks_bool ks_same_body(ks_body_id a, ks_body_id b) {
   return a.index == b.index && a.generation == b.generation;
 }
 
@@ -263,39 +268,46 @@ typedef struct ks_world {
 /// Which contact events bodies ask for (kinesphere/contact_events.hpp).
 typedef int32_t ks_contacts;
 enum {
-  KS_CONTACTS_OF_WORLD = 0,  ///< of a body: what its world says
-  KS_CONTACTS_IMPACTS = 1,
-  KS_CONTACTS_BEGIN_AND_END = 2,
-  KS_CONTACTS_ALL = 3
+  KS_CONTACTS_OF_WORLD = 0,       ///< of a body: what its world says
+  KS_CONTACTS_IMPACTS = 1,        ///< A begin whenever two touch and approach, and no ends.
+  KS_CONTACTS_BEGIN_AND_END = 2,  ///< One begin and one end for each contact.
+  KS_CONTACTS_ALL = 3             ///< Begins, ends, and each further approach in between.
 };
 
+/// Sum of KS_AXIS_...
+typedef uint32_t ks_axes;
 enum { KS_AXIS_X = 1, KS_AXIS_Y = 2, KS_AXIS_Z = 4 };
 
-/// Selects the bodies that a body may touch (kinesphere/filter.hpp).
+/// Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other,
+/// unless both are in one group, which decides by its sign (kinesphere/filter.hpp).
 typedef struct ks_filter {
-  uint64_t category;
-  uint64_t mask;
+  uint64_t category;  ///< default 1
+  uint64_t mask;      ///< default UINT64_MAX
   int32_t group;
 } ks_filter;
 
 /// Fields and ranges: kinesphere/world_definition.hpp.
 typedef struct ks_world_definition {
   uint32_t struct_size;
-  int32_t dimensions;  ///< 2 or 3
-  int32_t has_box;     ///< 1: the world has walls, or repeats, at the sides of `box`; 0: `box` is all 0
-  uint32_t periodic;   ///< sum of KS_AXIS_...: these axes repeat, and have no walls
-  ks_box box;
-  double contact_tolerance;    ///< > 0 (length)
-  double separation_distance;  ///< > contact_tolerance (length); NaN: four tolerances
-  double zeno_interval;        ///< >= 0 (time)
-  double start_time;
-  ks_contacts contacts;
-  int32_t allow_overlap;
-  int32_t spread_window_starts;  ///< 0 or 1, without effect
-  int32_t has_wall_filter;       ///< 0: the walls meet every body
-  ks_filter wall_filter;         ///< of all walls
-  /// 1: a report that breaks the promise of its body raises the body's acceleration limit
-  int32_t adopt_observed_limits;
+  int32_t dimensions;  ///< 2 or 3, default 3. With 2, bodies are discs in the plane z = 0.
+  /// The world has walls, or repeats, at the sides of `box`. Otherwise it is unbounded, and `box` is all 0.
+  ks_bool has_box;
+  ks_axes periodic;          ///< sum of KS_AXIS_...: these axes repeat, and have no walls
+  ks_box box;                ///< The sides are walls, or repeat. Without a box the world is unbounded.
+  double contact_tolerance;  ///< > 0 (length), default 1e-6: the largest gap of a contact
+  /// > contact_tolerance (length), default NaN, which is four tolerances: the gap at which a contact ends
+  double separation_distance;
+  /// >= 0 (time): contacts of a body that follow each other sooner are `repeated`.
+  double zeno_interval;
+  double start_time;      ///< The time at which the world begins.
+  ks_contacts contacts;   ///< default 3, KS_CONTACTS_ALL: what bodies ask for that do not say it themselves
+  ks_bool allow_overlap;  ///< default 1. If 0, bodies that certainly overlap are refused.
+  ks_bool spread_window_starts;  ///< Has no effect.
+  ks_bool has_wall_filter;
+  ks_filter wall_filter;  ///< The filter of all walls; without one they meet every body.
+  /// default 1: a report that breaks the promise of its body raises the body's acceleration limit to what
+  /// explains the report.
+  ks_bool adopt_observed_limits;
   int32_t reserved;  ///< 0
 } ks_world_definition;
 KS_API ks_status ks_world_definition_init(ks_world_definition* definition, uint32_t struct_size);
@@ -308,19 +320,22 @@ static inline ks_world_definition ks_default_world_definition(void) {
 /// Fields and ranges: kinesphere/body.hpp.
 typedef struct ks_body_definition {
   uint32_t struct_size;
-  int32_t solid;  ///< 0: the body only senses and is sensed
-  ks_contacts contacts;
-  int32_t sensor_class;       ///< from 0 to 255; 255 is that of zones
-  double radius;              ///< >= 0 (length)
-  double acceleration_limit;  ///< >= 0 (length / time^2)
-  double position_error;      ///< >= 0 (length)
-  double velocity_error;      ///< >= 0 (length / time)
-  double mass;                ///< >= 0, or infinity
-  ks_vec3 planned_acceleration;
+  ks_bool solid;         ///< default 1. If 0, the body only senses and is sensed.
+  ks_contacts contacts;  ///< Which contact events it asks for; 0: those of the world.
+  int32_t sensor_class;  ///< from 0 to 255; 255 is that of zones
+  double radius;         ///< >= 0 (length), default 1
+  /// >= 0 (length / time^2): the largest deviation from the planned acceleration
+  double acceleration_limit;
+  double position_error;  ///< >= 0 (length): every reported position is within this of the true one.
+  /// >= 0 (length / time): every reported velocity is within this of the true one.
+  double velocity_error;
+  /// >= 0, or infinity, default 1: every event of the body has it, and bounces use it.
+  double mass;
+  ks_vec3 planned_acceleration;  ///< Known acceleration, such as gravity (length / time^2).
   ks_vec3 position;
   ks_vec3 velocity;
-  ks_filter filter;
-  uint64_t user_data;  ///< stored for the caller
+  ks_filter filter;    ///< Selects the bodies that it may touch.
+  uint64_t user_data;  ///< Stored for the caller.
 } ks_body_definition;
 KS_API ks_status ks_body_definition_init(ks_body_definition* definition, uint32_t struct_size);
 static inline ks_body_definition ks_default_body_definition(void) {
@@ -332,11 +347,11 @@ static inline ks_body_definition ks_default_body_definition(void) {
 /// A body that never moves (kinesphere/shape.hpp).
 typedef struct ks_static_definition {
   uint32_t struct_size;
-  int32_t solid;
-  int32_t sensor_class;
-  ks_shape shape;
-  ks_filter filter;
-  uint64_t user_data;
+  ks_bool solid;         ///< default 1. If 0, the body only senses and is sensed.
+  int32_t sensor_class;  ///< from 0 to 255
+  ks_shape shape;        ///< default: a ball of radius 1 at the origin
+  ks_filter filter;      ///< Selects the bodies that it may touch.
+  uint64_t user_data;    ///< Stored for the caller.
 } ks_static_definition;
 KS_API ks_status ks_static_definition_init(ks_static_definition* definition, uint32_t struct_size);
 static inline ks_static_definition ks_default_static_definition(void) {
@@ -377,12 +392,14 @@ typedef struct ks_rigid_definition {
   uint32_t struct_size;
   size_t part_count;  ///< with hull_count >= 1
   const ks_rigid_part* parts;
-  ks_rotation rotation;               ///< at the world's current time
-  double angular_acceleration_limit;  ///< >= 0 (radians / time^2); 0: it keeps its angular velocity
-  double largest_angular_speed;       ///< >= 0 (radians / time); finite if the limit above is not 0
-  ks_vec3 inertia;  ///< moments about the axes of the body, its principal ones (mass length^2)
+  ks_rotation rotation;  ///< At the world's current time; default: no rotation.
+  /// >= 0 (radians / time^2). At 0 the body keeps its angular velocity, and the world knows its rotation.
+  double angular_acceleration_limit;
+  /// >= 0 (radians / time), default INFINITY; finite if the limit above is not 0
+  double largest_angular_speed;
+  ks_vec3 inertia;  ///< Moments about the axes of the body, its principal ones (mass length^2).
   size_t hull_count;
-  const ks_rigid_hull* hulls;  ///< parts whose numbers follow those of `parts`
+  const ks_rigid_hull* hulls;  ///< Parts whose numbers follow those of `parts`.
 } ks_rigid_definition;
 KS_API ks_status ks_rigid_definition_init(ks_rigid_definition* definition, uint32_t struct_size);
 static inline ks_rigid_definition ks_default_rigid_definition(void) {
@@ -481,7 +498,7 @@ KS_API ks_status ks_world_set_filter(ks_world world, ks_body_id body, const ks_f
 /// A NULL filter lets all pairs touch. `user` must outlive the world and its clones.
 KS_API ks_status ks_world_set_pair_filter(ks_world world, ks_pair_filter filter, void* user);
 KS_API ks_status ks_world_refresh_filter(ks_world world, ks_body_id body);
-KS_API ks_status ks_world_set_solid(ks_world world, ks_body_id body, int32_t solid);
+KS_API ks_status ks_world_set_solid(ks_world world, ks_body_id body, ks_bool solid);
 /// Sets the distances (length, >= 0) at which bodies of a class sense bodies with a category in the mask.
 KS_API ks_status ks_world_set_sensor(ks_world world, int32_t sensor_class, const double* distances,
                                      size_t count, uint64_t mask);
@@ -489,17 +506,17 @@ KS_API ks_status ks_world_set_sensor_class(ks_world world, ks_body_id body, int3
 
 // What a world knows.
 
-/// What the world knows of a body, as BodyView in kinesphere/world.hpp.
+/// What the world knows of a body (BodyView in kinesphere/world.hpp).
 typedef struct ks_body_view {
   uint32_t struct_size;
-  int32_t enabled;
-  int32_t is_static;
-  int32_t sleeping;
+  ks_bool enabled;
+  ks_bool is_static;
+  ks_bool sleeping;
   double report_time;
-  ks_box box;  ///< contains the body from now until box_end
+  ks_box box;  ///< Contains the body from now until box_end.
   double box_end;
-  int64_t image[3];               ///< boxes that it has travelled along periodic axes
-  ks_body_definition definition;  ///< its state is that of the last report
+  int64_t image[3];               ///< Boxes that it has travelled along periodic axes.
+  ks_body_definition definition;  ///< Its state is that of the last report.
 } ks_body_view;
 static inline ks_body_view ks_new_body_view(void) {
   ks_body_view view;
@@ -517,7 +534,7 @@ typedef struct ks_sensor_overlap {
 KS_API ks_status ks_world_time(ks_world world, double* time);
 KS_API ks_status ks_world_size(ks_world world, size_t* bodies);
 /// *contains is 1 if the world issued the id and the body has not been removed, else 0.
-KS_API ks_status ks_world_contains(ks_world world, ks_body_id body, int32_t* contains);
+KS_API ks_status ks_world_contains(ks_world world, ks_body_id body, ks_bool* contains);
 KS_API ks_status ks_world_body(ks_world world, ks_body_id body, ks_body_view* view);
 /// The rotation of a rigid body at its last report. Errors: KS_ERROR_UNSUPPORTED for any other body.
 KS_API ks_status ks_world_rotation(ks_world world, ks_body_id body, ks_rotation* rotation);
@@ -539,7 +556,7 @@ typedef struct ks_timings {
   double probes;      ///< in the caller's probes
 } ks_timings;
 
-/// Main reason for the probes of a body.
+/// Main reason for the probes of a body (kinesphere/inspection.hpp).
 typedef int32_t ks_probe_reason;
 enum {
   KS_PROBE_REASON_TOUCHING = 0,
@@ -555,19 +572,19 @@ enum {
 typedef struct ks_busy_body {
   ks_body_id body;
   ks_probe_reason reason;
-  uint64_t probes;
-  uint64_t touching;
-  uint64_t near_others;
-  uint64_t windows;
-  uint64_t changes;
-  uint64_t queries;
-  uint64_t contacts;
+  uint64_t probes;              ///< Its probed states; the sum of the next five.
+  uint64_t touching;            ///< for a body or wall that it touches
+  uint64_t near_others;         ///< for a body, wall or sensor distance that it may reach or leave
+  uint64_t windows;             ///< as it left its safe regions
+  uint64_t changes;             ///< after changes by the caller and violated bounds
+  uint64_t queries;             ///< for queries and predictions with a probe
+  uint64_t contacts;            ///< Its begins of contacts with bodies and walls.
   double acceleration_limit;    ///< now (length / time^2)
   double largest_acceleration;  ///< that reports prove (length / time^2)
 } ks_busy_body;
 
 /// Switches profiling on, from zero, or off.
-KS_API ks_status ks_world_set_profiling(ks_world world, int32_t on);
+KS_API ks_status ks_world_set_profiling(ks_world world, ks_bool on);
 KS_API ks_status ks_world_timings(ks_world world, ks_timings* timings);
 /// The bodies that were probed most often, at most `most`, the most probed first. Errors:
 /// KS_ERROR_NOT_PROFILING if profiling was never on.
@@ -581,22 +598,33 @@ KS_API const char* ks_probe_reason_advice(ks_probe_reason reason);
 // -----------------------------------------------------------------------------------------------------------
 // Events (kinesphere/event.hpp)
 
-/// One of KS_EVENT_...
+/// Kinds of events, in the order of their delivery within one instant. One of KS_EVENT_...
 typedef int32_t ks_event_kind;
 enum {
   KS_EVENT_NONE = 0,  ///< nothing more happens until the time that was asked for
+  /// A reported state contradicts the motion limits of its body.
   KS_EVENT_BOUND_VIOLATION = 1,
+  /// Two bodies touch: their gap has come down to at most the contact tolerance.
   KS_EVENT_CONTACT_BEGIN = 2,
+  /// Two bodies that touched are apart: their gap has grown to the separation distance.
   KS_EVENT_CONTACT_END = 3,
+  /// A body touches a wall of the box.
   KS_EVENT_WALL_BEGIN = 4,
+  /// A body that touched a wall is clear of it.
   KS_EVENT_WALL_END = 5,
+  /// Time would have stopped at a contact deep within its tolerance; it goes on by its least step. The two
+  /// may come to overlap by more than the tolerance. If it comes often, a response does not part its bodies,
+  /// or a body reaches through a wall.
   KS_EVENT_ZENO_GUARD = 6,
+  /// The gap of two bodies has come down to a sensor distance.
   KS_EVENT_SENSOR_ENTER = 7,
+  /// The gap of two bodies that were within a sensor distance has grown beyond it.
   KS_EVENT_SENSOR_LEAVE = 8,
+  /// A body that slept is awake again.
   KS_EVENT_WOKE = 9
 };
 
-/// One of KS_WALL_...
+/// The walls of the box of a world. One of KS_WALL_...
 typedef int32_t ks_wall;
 enum {
   KS_WALL_NONE = 0,
@@ -608,44 +636,70 @@ enum {
   KS_WALL_Z_UPPER = 6
 };
 
-enum { KS_TRAIT_STATIC = 1, KS_TRAIT_ZONE = 2, KS_TRAIT_SLEEPING = 4 };
-enum { KS_SENSES_FIRST = 1, KS_SENSES_SECOND = 2 };
+/// Properties of one body of an event. Sum of KS_TRAIT_...
+typedef uint32_t ks_traits;
+enum {
+  KS_TRAIT_STATIC = 1,   ///< The body never moves.
+  KS_TRAIT_ZONE = 2,     ///< The body is not solid: it touches no other body.
+  KS_TRAIT_SLEEPING = 4  ///< The body sleeps and stays asleep: contacts wake their bodies.
+};
+/// Which bodies of an event sense the other one. Sum of KS_SENSES_...
+typedef uint32_t ks_senses;
+enum {
+  KS_SENSES_FIRST = 1,  ///< The first body senses the second one.
+  KS_SENSES_SECOND = 2  ///< The second body senses the first one.
+};
 
 /// Fields: struct Event in kinesphere/event.hpp.
 typedef struct ks_event {
   uint32_t struct_size;
   ks_event_kind kind;
   double time;
-  ks_body_id first;
+  ks_body_id first;  ///< The body of the event or, for a pair, the body with the smaller id.
+  /// The other body of a pair; no body for walls, bound violations and bodies that woke.
   ks_body_id second;
-  ks_wall wall;
-  int32_t repeated;
-  int32_t jammed;
-  int32_t already_touching;
-  uint32_t senses;        ///< sum of KS_SENSES_...: which body senses the other one
-  uint32_t first_traits;  ///< sum of KS_TRAIT_...
-  uint32_t second_traits;
-  uint32_t reserved;  ///< 0
+  ks_wall wall;  ///< The wall of a wall event.
+  /// One of the two touched another body less than the Zeno interval ago: a response should take no energy
+  /// here.
+  ks_bool repeated;
+  /// Each of the two has had 64 contacts at this instant, as if stuck: a response should part them, or stop
+  /// both.
+  ks_bool jammed;
+  /// Of begins: the two have touched since an earlier begin, and approach again. To count contacts, count the
+  /// others.
+  ks_bool already_touching;
+  ks_senses senses;         ///< Of sensors: the body or bodies that sense the other one.
+  ks_traits first_traits;   ///< sum of KS_TRAIT_...
+  ks_traits second_traits;  ///< None for a wall.
+  uint32_t reserved;        ///< 0
+  /// At `time`; of a static body one point of its shape. In periodic space the two are nearest images.
   ks_state first_state;
   ks_state second_state;
-  ks_vec3 point;
-  ks_vec3 normal;  ///< from first to second, or to the wall
-  double gap;
-  double approach_speed;
+  ks_vec3 point;          ///< The middle of the gap between the two surfaces.
+  ks_vec3 normal;         ///< Unit vector from `first` towards `second`, or towards the wall.
+  double gap;             ///< Distance between the surfaces (length); negative when they overlap.
+  double approach_speed;  ///< Speed at which the gap closes (length / time); negative when it opens.
+  /// Of a bound violation: how far the reported position lies outside the bound (length).
   double position_excess;
+  /// Of a bound violation: by how much the velocity changed more than promised (length / time).
   double velocity_excess;
-  double distance;  ///< of a sensor
-  uint64_t first_user_data;
+  double distance;           ///< Of a sensor: the sensor distance that was crossed (length).
+  uint64_t first_user_data;  ///< What the definition of the body gave.
   uint64_t second_user_data;
-  double first_mass;
-  double second_mass;
-  uint32_t first_part;  ///< of rigid bodies and meshes: the part or the triangle at the contact
+  double first_mass;   ///< Of the body; infinite for a static body.
+  double second_mass;  ///< Of the body; infinite for a static body and for a wall.
+  /// Of a rigid body: the number of the part at the contact; of a mesh: that of the triangle; 0 for all
+  /// others.
+  uint32_t first_part;
   uint32_t second_part;
-  ks_vec3 first_angular_velocity;  ///< of rigid bodies (radians / time)
+  ks_vec3 first_angular_velocity;  ///< Of a rigid body (radians / time); zero for all others.
   ks_vec3 second_angular_velocity;
-  ks_vec3 first_spin_gain;  ///< of rigid bodies, by a unit impulse along the normal
+  /// Change of the angular velocity of a rigid body by a unit impulse along the normal (radians / (mass
+  /// length)).
+  ks_vec3 first_spin_gain;
   ks_vec3 second_spin_gain;
-  double acceleration_limit;  ///< of a bound violation: the body's limit from now on (length / time^2)
+  /// Of a bound violation: the acceleration limit that the body has from now on (length / time^2).
+  double acceleration_limit;
 } ks_event;
 static inline ks_event ks_new_event(void) {
   ks_event event;
@@ -657,13 +711,13 @@ static inline ks_event ks_new_event(void) {
 /// Returns a name such as "contact_begin"; "none" for KS_EVENT_NONE and "" for numbers that are no kind.
 KS_API const char* ks_event_kind_name(ks_event_kind kind);
 
-/// One of KS_ACTION_...: what a response does to a body, after the body has got its velocity.
+/// What a response does to a body, after the body has got its velocity. One of KS_ACTION_...
 typedef int32_t ks_body_action;
 enum {
   KS_ACTION_NONE = 0,
   KS_ACTION_REMOVE = 1,   ///< ks_world_remove()
   KS_ACTION_DISABLE = 2,  ///< ks_world_disable()
-  KS_ACTION_SLEEP = 3     ///< ks_world_sleep(), with velocity 0
+  KS_ACTION_SLEEP = 3     ///< With velocity 0 (ks_world_sleep).
 };
 
 /// What an event does to its bodies, from a response function or ks_bounce() (Response in
@@ -672,11 +726,11 @@ enum {
 /// disabled.
 typedef struct ks_response {
   uint32_t struct_size;
-  int32_t stop;  ///< the sink may change the world when it receives this event (ks_sink)
-  int32_t turns_first;
-  int32_t turns_second;
-  int32_t spins_first;  ///< the first body is rigid and gets this angular velocity (radians / time)
-  int32_t spins_second;
+  ks_bool stop;  ///< the sink may change the world when it receives this event (ks_sink)
+  ks_bool turns_first;
+  ks_bool turns_second;
+  ks_bool spins_first;  ///< the first body is rigid and gets this angular velocity (radians / time)
+  ks_bool spins_second;
   ks_body_action first_action;
   ks_body_action second_action;
   ks_vec3 first_velocity;
@@ -746,8 +800,9 @@ typedef int32_t (*ks_sink)(const ks_event* event, void* user);
 /// How ks_world_run() answers events.
 typedef struct ks_run_definition {
   uint32_t struct_size;
-  int32_t threads;       ///< from 1 to 256, with the calling one; the outcome is the same
-  double restitution;    ///< in [0, 1]: bodies bounce as by ks_bounce(); NaN: they pass through each other
+  int32_t threads;     ///< from 1 to 256, default 1, with the calling one; the outcome is the same
+  double restitution;  ///< in [0, 1], default 1: bodies bounce as by ks_bounce(); NaN: they pass through each
+                       ///< other
   double resting_speed;  ///< as for ks_bounce()
   ks_respond respond;    ///< if not NULL, it answers events instead
   void* respond_user;
@@ -795,10 +850,11 @@ typedef struct ks_motion_definition {
   /// bodies without a limit.
   const double* acceleration_limits;
   ks_vec3 gravity;  ///< KS_MOTION_BALLISTIC; 0 for the others
-  /// > 0 (time): of forces, or of frames without times of their own (FrameMotionDefinition::interval)
+  /// > 0 (time), default 1.0/60: of forces, or of frames without times of their own
+  /// (FrameMotionDefinition::interval)
   double interval;
   double position_error;  ///< KS_MOTION_FRAMES: of the positions in frames
-  uint64_t seed;          ///< KS_MOTION_RANDOM_FORCES
+  uint64_t seed;          ///< default 1, for KS_MOTION_RANDOM_FORCES
   /// All that bodies have beside states and motion limits; NULL: ks_default_body_definition().
   const ks_body_definition* like;
 } ks_motion_definition;
@@ -850,11 +906,11 @@ KS_API ks_status ks_world_states(ks_world world, const ks_body_id* bodies, size_
 
 /// When a contact or an approach may happen first. It certainly does not happen before `time`.
 typedef struct ks_prediction {
-  double time;         ///< in [current time, infinity]
-  ks_body_id partner;  ///< no body for a wall, or if the time is infinite
+  double time;         ///< In [current time, infinity].
+  ks_body_id partner;  ///< No body for a wall, or if the time is infinite.
   ks_wall wall;
-  int32_t happens;  ///< the contact exists, or the partner certainly is within the distance
-  int32_t probed;
+  ks_bool happens;  ///< The contact exists, or the partner certainly is within the distance.
+  ks_bool probed;
 } ks_prediction;
 
 /// The earliest contact of the whole world; it names no partner.
@@ -876,7 +932,7 @@ KS_API ks_status ks_world_distance_limits(ks_world world, ks_body_id first, ks_b
 /// `upper` (length); for overlaps both are 0.
 typedef struct ks_hit {
   ks_body_id body;
-  int32_t certain;  ///< 0: possibly
+  ks_bool certain;  ///< 0: possibly
   double lower;
   double upper;
 } ks_hit;
@@ -920,7 +976,7 @@ KS_API ks_status ks_replay_destroy(ks_replay replay);
 /// and what differs; every further call returns it again.
 KS_API KS_MUST_CHECK ks_status ks_replay_advance(ks_replay replay, ks_event* event);
 /// *finished is 1 if no step is left and the world has ended as the recorded one did, to the last bit.
-KS_API ks_status ks_replay_finished(ks_replay replay, int32_t* finished);
+KS_API ks_status ks_replay_finished(ks_replay replay, ks_bool* finished);
 /// The numbers of steps repeated so far and in total.
 KS_API ks_status ks_replay_steps(ks_replay replay, size_t* repeated, size_t* total);
 /// The hash of all outcomes so far.
@@ -992,27 +1048,33 @@ typedef struct ks_separation_rule {
 /// Fields: MonitorDefinition in kinesphere/monitor/monitor.hpp.
 typedef struct ks_monitor_definition {
   uint32_t struct_size;
-  int32_t dimensions;
-  int32_t has_start_time;
-  double start_time;
+  int32_t dimensions;  ///< 2 or 3, default 3. In two dimensions, z is ignored.
+  ks_bool has_start_time;
+  double start_time;  ///< Without it the clock starts at the first report or the first time to advance to.
+  /// Motion limits of the track classes; a report names its class by its place.
   const ks_track_class* classes;
   size_t class_count;
-  const ks_separation_rule* separations;
+  const ks_separation_rule* separations;  ///< Pairs of classes that no rule names are not watched.
   size_t separation_count;
+  /// > 0 (length), default 1e-3: how far outside the separation a pair still is `within`.
   double tolerance;
-  double time_resolution;
-  double window;
+  double time_resolution;  ///< > 0 (time), default 1e-3: how late a verdict may be that time alone decides.
+  double window;           ///< > 0 (time), default 1: about the time between two reports of a track.
+  /// > 0 (time), default INFINITY: age of the latest report at which a track is stale.
   double stale_after;
+  /// > 0 (time), default INFINITY: age of the latest report at which a track is dropped.
   double drop_after;
-  double prediction_hold;
-  double prediction_confirmation;
+  double prediction_hold;          ///< >= 0 (time): a prediction ends once it has not held for this long.
+  double prediction_confirmation;  ///< >= 0 (time): a prediction begins once it has held for this long.
+  /// In [0, 1]: a prediction goes on within the separation enlarged by this part of it.
   double prediction_margin;
+  /// In [0, 1]: separations are enlarged for predictions by this part of the position errors of both tracks.
   double prediction_error_part;
-  /// The monitor watches shards shard_first, ..., shard_first + shard_count - 1 of all pairs, out of
-  /// shard_of; a pair is in the shard that the lower of its ids modulo shard_of says.
+  /// default 1: the monitor watches shards shard_first, ..., shard_first + shard_count - 1 of all pairs, out
+  /// of shard_of; a pair is in the shard that the lower of its ids modulo shard_of says.
   uint64_t shard_of;
-  uint64_t shard_first;
-  uint64_t shard_count;
+  uint64_t shard_first;  ///< the first one that it watches
+  uint64_t shard_count;  ///< default 1
 } ks_monitor_definition;
 KS_API ks_status ks_monitor_definition_init(ks_monitor_definition* definition, uint32_t struct_size);
 static inline ks_monitor_definition ks_default_monitor_definition(void) {
@@ -1024,16 +1086,18 @@ static inline ks_monitor_definition ks_default_monitor_definition(void) {
 /// A reported state of a track (kinesphere/monitor/report.hpp).
 typedef struct ks_track_report {
   uint32_t struct_size;
-  int32_t has_plan;
-  uint64_t track_class;
-  double timestamp;
-  double timestamp_error;
+  ks_bool has_plan;
+  uint64_t track_class;    ///< Place of its class in those of the monitor.
+  double timestamp;        ///< Time of the state on the monitor's clock.
+  double timestamp_error;  ///< Largest difference of the timestamp from the true time.
   ks_state state;
-  ks_error_bound position_error;
-  ks_error_bound velocity_error;  ///< infinite if no velocity was reported
-  ks_vec3 plan_acceleration;      ///< the plan, if has_plan
-  ks_error_bound plan_limit;
-  double plan_valid_until;
+  ks_error_bound position_error;  ///< Largest distance of the true position from the reported one (length).
+  /// Largest difference of the true velocity from the reported one (length / time); infinite if none was
+  /// reported.
+  ks_error_bound velocity_error;
+  ks_vec3 plan_acceleration;  ///< From the timestamp on, in place of what the class says.
+  ks_error_bound plan_limit;  ///< Largest deviation from that acceleration.
+  double plan_valid_until;    ///< default INFINITY
 } ks_track_report;
 KS_API ks_status ks_track_report_init(ks_track_report* report, uint32_t struct_size);
 static inline ks_track_report ks_default_track_report(void) {
@@ -1042,22 +1106,38 @@ static inline ks_track_report ks_default_track_report(void) {
   return report;
 }
 
-/// One of KS_VERDICT_...
+/// What the reports prove about two tracks and a separation. One of KS_VERDICT_...
 typedef int32_t ks_verdict;
-enum { KS_VERDICT_APART = 0, KS_VERDICT_UNDECIDED = 1, KS_VERDICT_WITHIN = 2 };
+enum {
+  /// The two certainly are not within the separation.
+  KS_VERDICT_APART = 0,
+  /// The reports prove neither of the other two.
+  KS_VERDICT_UNDECIDED = 1,
+  /// They certainly are within it, or outside of it by at most the tolerance.
+  KS_VERDICT_WITHIN = 2
+};
 
-/// One of KS_MONITOR_...
+/// Kinds of events of a monitor (kinesphere/monitor/monitor_event.hpp). One of KS_MONITOR_...
 typedef int32_t ks_monitor_event_kind;
 enum {
   KS_MONITOR_NONE = 0,  ///< nothing more happens until the time that was asked for
+  /// The verdict about two tracks and a separation changes.
   KS_MONITOR_VERDICT = 1,
+  /// If both go straight on, two tracks come within a separation, in its look-ahead time: no guarantee.
   KS_MONITOR_PREDICTED = 2,
+  /// They have passed each other, or a report shows that they will not come near.
   KS_MONITOR_PREDICTION_ENDED = 3,
+  /// A report contradicts the earlier ones of its track.
   KS_MONITOR_CONTRADICTION = 4,
+  /// A contradiction has ended: later reports show which one was wrong.
   KS_MONITOR_RESOLVED = 5,
+  /// The latest report of a track has reached the age stale_after.
   KS_MONITOR_STALE = 6,
+  /// A stale track has reported again.
   KS_MONITOR_RESUMED = 7,
+  /// A track was removed, or its latest report has reached the age drop_after.
   KS_MONITOR_DROPPED = 8,
+  /// A report has given the track another class; it starts anew. Comes before all others of its time.
   KS_MONITOR_RECLASSIFIED = 9
 };
 
@@ -1066,18 +1146,23 @@ typedef struct ks_monitor_event {
   uint32_t struct_size;
   ks_monitor_event_kind kind;
   double time;
-  uint64_t first;
-  uint64_t second;
-  uint32_t level;
-  ks_verdict verdict;
-  ks_verdict before;
-  uint32_t reserved;  ///< 0
+  uint64_t first;      ///< The track of the event; for a pair, the one with the lower id.
+  uint64_t second;     ///< Of a verdict or a prediction: the track with the higher id.
+  uint32_t level;      ///< Of a verdict or a prediction: the separation level.
+  ks_verdict verdict;  ///< Of a verdict: the new one.
+  ks_verdict before;   ///< Of a verdict: the one before.
+  uint32_t reserved;   ///< 0
+  /// Time at which the verdict before began, -infinity for a pair that was apart at all levels; of a
+  /// prediction, time at which it began.
   double since;
+  /// Of a prediction: the time at which the two come within; infinity if they never do.
   double likely_time;
-  double closest_time;
+  double closest_time;  ///< Of a prediction: the time of the closest approach.
+  /// Of a prediction: the distance then (length); for a cylinder that in the plane.
   double closest_distance;
+  /// Of a contradiction: how far the position is outside of what was possible (length).
   double position_excess;
-  double velocity_excess;
+  double velocity_excess;  ///< Of a contradiction: how far the velocity is outside (length / time).
 } ks_monitor_event;
 static inline ks_monitor_event ks_new_monitor_event(void) {
   ks_monitor_event event;
@@ -1093,21 +1178,26 @@ KS_API const char* ks_verdict_name(ks_verdict verdict);
 typedef struct ks_pair_answer {
   uint32_t struct_size;
   ks_verdict verdict;
-  int32_t predicted;
+  ks_bool predicted;  ///< From KS_MONITOR_PREDICTED to KS_MONITOR_PREDICTION_ENDED.
+  /// Time since which the verdict has held; -infinity for a pair that is apart at all levels.
   double since;
-  double until;
-  double lower;
-  double upper;
+  double until;  ///< A certain verdict is true until this time, whatever is reported.
+  double lower;  ///< Lower limit of the distance now (length); for a cylinder, of that in the plane.
+  double upper;  ///< Upper limit of it.
+  /// Estimate, if both go straight on: distance at the closest approach; for a cylinder that in the plane.
   double closest_distance;
-  double closest_time;
-  double closest_horizontal;
-  double closest_vertical;
-  double relative_speed;
+  double closest_time;        ///< Estimate: the time of the closest approach.
+  double closest_horizontal;  ///< Estimate: the horizontal part of the distance at that time.
+  double closest_vertical;    ///< Estimate: the vertical part.
+  double relative_speed;      ///< Estimate: speed of one relative to the other now.
+  /// Estimate: time at which they first are within the separation; infinity if they never are.
   double likely_time;
+  /// The pair certainly is within at some time up to this one, whatever the tracks do within their limits.
   double inevitable_by;
+  /// Estimate: if both go straight on until this time, no accelerations within their limits keep them out.
   double avoidable_until;
-  uint64_t ask;
-  double ask_by;
+  uint64_t ask;   ///< The track whose report would tighten the bounds most.
+  double ask_by;  ///< When that report is needed for the verdict to stay certain.
 } ks_pair_answer;
 static inline ks_pair_answer ks_new_pair_answer(void) {
   ks_pair_answer answer;

@@ -4,6 +4,7 @@
 
 #include "exchange.hpp"
 #include "motion_of_bodies.hpp"
+#include "numbers.hpp"
 #include "simulation/run/scene_answer.hpp"
 #include "simulation/scene/scene.hpp"
 

@@ -4,20 +4,17 @@
 #include <cstddef>
 
 #include "kinesphere/kinesphere.hpp"
+#include "numbers.hpp"
 
 namespace kinesphere::browser {
 
-/// Size of a body in numbers; putBody() in package/src/body.ts writes them.
-constexpr std::size_t body_numbers = 21;
+/// The numbers that putBodyFields() in package/src/records.ts writes.
 BodyDefinition body_at(const double* numbers);
 
 /// `kind` and numbers are those of shapeNumbers() in package/src/body.ts. Errors: those of Mesh::create() and
 /// Mesh::chain().
 Result<Shape> shape_at(int kind, const double* numbers);
 
-/// Category, mask and group; -1 is the mask of all.
-Filter filter_at(const double* numbers);
-void put(const Filter& filter, double* numbers);
-std::uint64_t mask_of(double number);
+inline Filter filter_at(const double* numbers) { return NumberReader(numbers).take<Filter>(); }
 
 }  // namespace kinesphere::browser

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "kinesphere/version.hpp"
+#include "numbers.hpp"
 
 namespace kinesphere::browser {
 namespace {
@@ -17,16 +18,6 @@ struct LastError {
   std::string message;
 };
 LastError last_error;
-
-/// A body's traits as bits: static 1, zone 2, sleeping 4.
-double bits_of(const BodyTraits& traits) {
-  return (traits.is_static ? 1 : 0) + (traits.is_zone ? 2 : 0) + (traits.is_sleeping ? 4 : 0);
-}
-
-BodyTraits traits_at(double number) {
-  const int bits = static_cast<int>(number);
-  return {.is_static = (bits & 1) != 0, .is_zone = (bits & 2) != 0, .is_sleeping = (bits & 4) != 0};
-}
 
 }  // namespace
 
@@ -55,51 +46,9 @@ std::vector<std::byte>& answer_bytes() {
   return bytes;
 }
 
-void put(const Vec3& vector, double* numbers) {
-  numbers[0] = vector.x;
-  numbers[1] = vector.y;
-  numbers[2] = vector.z;
-}
-
-void put(const State& state, double* numbers) {
-  put(state.position, numbers);
-  put(state.velocity, numbers + 3);
-}
-
-void put(const Event& event, double* numbers) {
-  numbers[0] = static_cast<double>(event.kind);
-  numbers[1] = event.time;
-  numbers[2] = number_of(event.first);
-  numbers[3] = number_of(event.second);
-  numbers[4] = static_cast<double>(event.wall);
-  numbers[5] = event.repeated ? 1.0 : 0.0;
-  numbers[6] = event.jammed ? 1.0 : 0.0;
-  numbers[7] = static_cast<double>(event.senses);
-  put(event.first_state, numbers + 8);
-  put(event.second_state, numbers + 14);
-  put(event.point, numbers + 20);
-  put(event.normal, numbers + 23);
-  numbers[26] = event.gap;
-  numbers[27] = event.approach_speed;
-  numbers[28] = event.position_excess;
-  numbers[29] = event.velocity_excess;
-  numbers[30] = event.distance;
-  // Exact up to 2^53.
-  numbers[31] = static_cast<double>(event.first_user_data);
-  numbers[32] = static_cast<double>(event.second_user_data);
-  numbers[33] = event.first_mass;
-  numbers[34] = event.second_mass;
-  numbers[35] = bits_of(event.first_traits);
-  numbers[36] = bits_of(event.second_traits);
-  numbers[37] = event.already_touching ? 1.0 : 0.0;
-  numbers[38] = event.first_part;
-  numbers[39] = event.second_part;
-  put(event.first_angular_velocity, numbers + 40);
-  put(event.second_angular_velocity, numbers + 43);
-  put(event.first_spin_gain, numbers + 46);
-  put(event.second_spin_gain, numbers + 49);
-  numbers[52] = event.acceleration_limit;
-}
+void put(const Vec3& vector, double* numbers) { NumberWriter(numbers).put(vector); }
+void put(const State& state, double* numbers) { NumberWriter(numbers).put(state); }
+void put(const Event& event, double* numbers) { fields::each_event_field(NumberWriter(numbers), event); }
 
 void answer_ids(std::span<const BodyId> ids) {
   answer().clear();
@@ -116,37 +65,7 @@ int answer_event(const Result<std::optional<Event>>& event) {
 
 Event event_at(const double* numbers) {
   Event event;
-  event.kind = static_cast<EventKind>(numbers[0]);
-  event.time = numbers[1];
-  event.first = body_of(numbers[2]);
-  event.second = body_of(numbers[3]);
-  event.wall = static_cast<Wall>(numbers[4]);
-  event.repeated = numbers[5] != 0.0;
-  event.jammed = numbers[6] != 0.0;
-  event.already_touching = numbers[37] != 0.0;
-  event.senses = static_cast<decltype(event.senses)>(numbers[7]);
-  event.first_state = state_at(numbers + 8);
-  event.second_state = state_at(numbers + 14);
-  event.point = vector_at(numbers + 20);
-  event.normal = vector_at(numbers + 23);
-  event.gap = numbers[26];
-  event.approach_speed = numbers[27];
-  event.position_excess = numbers[28];
-  event.velocity_excess = numbers[29];
-  event.distance = numbers[30];
-  event.first_user_data = static_cast<std::uint64_t>(numbers[31]);
-  event.second_user_data = static_cast<std::uint64_t>(numbers[32]);
-  event.first_mass = numbers[33];
-  event.second_mass = numbers[34];
-  event.first_traits = traits_at(numbers[35]);
-  event.second_traits = traits_at(numbers[36]);
-  event.first_part = static_cast<std::uint32_t>(numbers[38]);
-  event.second_part = static_cast<std::uint32_t>(numbers[39]);
-  event.first_angular_velocity = vector_at(numbers + 40);
-  event.second_angular_velocity = vector_at(numbers + 43);
-  event.first_spin_gain = vector_at(numbers + 46);
-  event.second_spin_gain = vector_at(numbers + 49);
-  event.acceleration_limit = numbers[52];
+  fields::each_event_field(NumberReader(numbers), event);
   return event;
 }
 

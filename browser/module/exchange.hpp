@@ -43,8 +43,7 @@ inline State state_at(const double* numbers) { return {vector_at(numbers), vecto
 void put(const Vec3& vector, double* numbers);
 void put(const State& state, double* numbers);
 
-/// Size of an event in numbers; the class Event in package/src/event.ts reads them.
-constexpr std::size_t event_numbers = 53;
+/// The numbers of an event (numbers.hpp); EventFields in package/src/records.ts reads them.
 void put(const Event& event, double* numbers);
 Event event_at(const double* numbers);
 

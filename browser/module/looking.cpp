@@ -33,7 +33,7 @@ KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t 
     for (std::size_t axis = 0; axis < 3; ++axis) at[25 + axis] = static_cast<double>(view->image[axis]);
     at[28] = view->definition.solid ? 1.0 : 0.0;
     at[29] = view->definition.mass;
-    put(view->definition.filter, at + 30);
+    NumberWriter(at + 30).put(view->definition.filter);
     at[33] = view->rigid ? 1.0 : 0.0;
   }
   return true;

@@ -3,6 +3,7 @@
 
 #include "exchange.hpp"
 #include "kinesphere/monitor/monitor.hpp"
+#include "numbers.hpp"
 
 namespace kinesphere::browser {
 namespace {
@@ -11,66 +12,24 @@ namespace {
 KINESPHERE_IMPORT(poll)
 bool javascript_poll(std::size_t count, const double* ids, double time, double* reports);
 
-/// Reads numbers one after the other.
-class Numbers {
- public:
-  explicit Numbers(const double* next) : next_(next) {}
-  double number() { return *next_++; }
-  bool flag() { return number() != 0.0; }
-  template <class Whole>
-  Whole whole() {
-    return static_cast<Whole>(number());
-  }
-  Vec3 vector() {
-    const Vec3 read = vector_at(next_);
-    next_ += 3;
-    return read;
-  }
-  /// Three numbers: 0 and a radius, or 1, the horizontal and the vertical limit.
-  ErrorBound bound() {
-    const bool is_cylinder = flag();
-    const double horizontal = number(), vertical = number();
-    return is_cylinder ? ErrorBound::cylinder(horizontal, vertical) : ErrorBound(horizontal);
-  }
-
- private:
-  const double* next_;
-};
-
 /// Reads what monitorNumbers() in package/src/monitor_definition.ts writes.
 MonitorDefinition monitor_definition_at(const double* at) {
-  Numbers numbers(at);
+  NumberReader numbers(at);
   MonitorDefinition definition;
-  definition.dimensions = numbers.whole<int>();
+  fields::each_monitor_definition_field(numbers, definition);
   const bool starts = numbers.flag();
   const double start_time = numbers.number();
   if (starts) definition.start_time = start_time;
-  for (double* const field :
-       {&definition.tolerance, &definition.time_resolution, &definition.window, &definition.stale_after,
-        &definition.drop_after, &definition.prediction_hold, &definition.prediction_confirmation,
-        &definition.prediction_margin, &definition.prediction_error_part})
-    *field = numbers.number();
-  definition.shard.of = numbers.whole<std::uint64_t>();
-  definition.shard.first = numbers.whole<std::uint64_t>();
-  definition.shard.count = numbers.whole<std::uint64_t>();
-  definition.classes.resize(numbers.whole<std::size_t>());
-  definition.separations.resize(numbers.whole<std::size_t>());
-  for (TrackClass& one : definition.classes) {
-    one.acceleration_limit = numbers.bound();
-    one.planned_acceleration = numbers.vector();
-    one.largest_speed = numbers.bound();
-  }
+  definition.shard = {numbers.take<std::uint64_t>(), numbers.take<std::uint64_t>(),
+                      numbers.take<std::uint64_t>()};
+  definition.classes.resize(numbers.take<std::size_t>());
+  definition.separations.resize(numbers.take<std::size_t>());
+  for (TrackClass& one : definition.classes) fields::each_track_class_field(numbers, one);
   for (SeparationRule& rule : definition.separations) {
-    rule.first_class = numbers.whole<std::size_t>();
-    rule.second_class = numbers.whole<std::size_t>();
-    rule.levels.resize(numbers.whole<std::size_t>());
-    for (Separation& level : rule.levels) {
-      level.shape = static_cast<Separation::Shape>(numbers.whole<int>());
-      level.horizontal = numbers.number();
-      level.vertical = numbers.number();
-      level.look_ahead = numbers.number();
-      level.modified_tau = numbers.number();
-    }
+    rule.first_class = numbers.take<std::size_t>();
+    rule.second_class = numbers.take<std::size_t>();
+    rule.levels.resize(numbers.take<std::size_t>());
+    for (Separation& level : rule.levels) fields::each_separation_field(numbers, level);
   }
   return definition;
 }
@@ -79,10 +38,14 @@ void answer_with(std::initializer_list<double> numbers) {
   answer().insert(answer().end(), numbers.begin(), numbers.end());
 }
 
-/// Answers what Numbers::bound() reads.
-void answer_bound(const ErrorBound& bound) {
-  const bool is_ball = bound == ErrorBound(bound.horizontal());
-  answer_with({is_ball ? 0.0 : 1.0, bound.horizontal(), bound.vertical()});
+/// Answers the fields of a record that `walk` goes through.
+template <class Walk>
+void answer_record(const Walk& walk) {
+  // More than any record has.
+  double numbers[64];
+  NumberWriter writer(numbers);
+  walk(writer);
+  answer().insert(answer().end(), numbers, writer.next());
 }
 
 double number_of_track(TrackId id) { return static_cast<double>(id); }
@@ -93,23 +56,18 @@ void answer_tracks(std::span<const TrackId> ids) {
   for (const TrackId id : ids) answer().push_back(number_of_track(id));
 }
 
-/// Size of a report in numbers; putReport() in package/src/report.ts writes them. The first one is the id of
-/// the track or, in a reply to a poll, 1 if there is a report.
-constexpr std::size_t report_numbers = 24;
+/// Size of a report in numbers, which putReport() in package/src/report.ts writes: the id of the track or, in
+/// a reply to a poll, 1 if there is a report; the fields; and a plan with whether there is one.
+constexpr std::size_t report_numbers = 1 + report_field_numbers + 8;
 TrackReport report_at(const double* at) {
-  Numbers numbers(at + 1);
+  NumberReader numbers(at + 1);
   TrackReport report;
-  report.timestamp = numbers.number();
-  report.state.position = numbers.vector();
-  report.state.velocity = numbers.vector();
-  report.position_error = numbers.bound();
-  report.velocity_error = numbers.bound();
-  report.timestamp_error = numbers.number();
-  report.track_class = numbers.whole<std::size_t>();
-  const bool has_plan = numbers.flag();
-  const Vec3 acceleration = numbers.vector();
-  const ErrorBound limit = numbers.bound();
-  if (has_plan) report.plan = {acceleration, limit, numbers.number()};
+  fields::each_track_report_field(numbers, report);
+  if (numbers.flag()) {
+    const Vec3 acceleration = numbers.take<Vec3>();
+    const ErrorBound limit = numbers.take<ErrorBound>();
+    report.plan = {acceleration, limit, numbers.number()};
+  }
   return report;
 }
 
@@ -131,11 +89,7 @@ void poll_javascript(std::span<const TrackId> ids, double time,
 
 /// Answers the numbers that the class MonitorEvent in package/src/monitor_event.ts reads.
 void answer_event_of(const MonitorEvent& event) {
-  answer_with({event.time, static_cast<double>(event.kind), number_of_track(event.first),
-               number_of_track(event.second), static_cast<double>(event.level),
-               static_cast<double>(event.verdict), static_cast<double>(event.before), event.since,
-               event.likely_time, event.closest_time, event.closest_distance, event.position_excess,
-               event.velocity_excess});
+  answer_record([&](NumberWriter& writer) { fields::each_monitor_event_field(writer, event); });
 }
 
 Monitor* handle_of(Result<Monitor> monitor) {
@@ -159,25 +113,22 @@ KINESPHERE_EXPORT(monitor_save) void monitor_save(const Monitor* monitor) {
 KINESPHERE_EXPORT(monitor_definition) void monitor_definition(const Monitor* monitor) {
   const MonitorDefinition& definition = monitor->definition();
   answer().clear();
-  answer_with({static_cast<double>(definition.dimensions), definition.start_time ? 1.0 : 0.0,
-               definition.start_time.value_or(0.0), definition.tolerance, definition.time_resolution,
-               definition.window, definition.stale_after, definition.drop_after, definition.prediction_hold,
-               definition.prediction_confirmation, definition.prediction_margin,
-               definition.prediction_error_part, static_cast<double>(definition.shard.of),
-               static_cast<double>(definition.shard.first), static_cast<double>(definition.shard.count),
-               static_cast<double>(definition.classes.size()),
-               static_cast<double>(definition.separations.size())});
-  for (const TrackClass& one : definition.classes) {
-    answer_bound(one.acceleration_limit);
-    answer_with({one.planned_acceleration.x, one.planned_acceleration.y, one.planned_acceleration.z});
-    answer_bound(one.largest_speed);
-  }
+  answer_record([&](NumberWriter& writer) {
+    fields::each_monitor_definition_field(writer, definition);
+    writer.put(definition.start_time.has_value());
+    writer.put(definition.start_time.value_or(0.0));
+    for (const std::uint64_t part : {definition.shard.of, definition.shard.first, definition.shard.count})
+      writer.put(part);
+    writer.put(definition.classes.size());
+    writer.put(definition.separations.size());
+  });
+  for (const TrackClass& one : definition.classes)
+    answer_record([&](NumberWriter& writer) { fields::each_track_class_field(writer, one); });
   for (const SeparationRule& rule : definition.separations) {
     answer_with({static_cast<double>(rule.first_class), static_cast<double>(rule.second_class),
                  static_cast<double>(rule.levels.size())});
     for (const Separation& level : rule.levels)
-      answer_with({static_cast<double>(level.shape), level.horizontal, level.vertical, level.look_ahead,
-                   level.modified_tau});
+      answer_record([&](NumberWriter& writer) { fields::each_separation_field(writer, level); });
   }
 }
 
@@ -250,38 +201,20 @@ KINESPHERE_EXPORT(monitor_answer)
 bool monitor_answer(const Monitor* monitor, double first, double second, std::uint32_t level) {
   const auto pair = monitor->answer(track_of(first), track_of(second), level);
   if (!is_good(pair)) return false;
-  answer() = {static_cast<double>(pair->verdict),
-              pair->since,
-              pair->until,
-              pair->lower,
-              pair->upper,
-              pair->closest_distance,
-              pair->closest_time,
-              pair->closest_horizontal,
-              pair->closest_vertical,
-              pair->relative_speed,
-              pair->likely_time,
-              pair->inevitable_by,
-              pair->avoidable_until,
-              number_of_track(pair->ask),
-              pair->ask_by,
-              pair->predicted ? 1.0 : 0.0};
+  answer().clear();
+  answer_record([&](NumberWriter& writer) { fields::each_pair_answer_field(writer, *pair); });
   return true;
 }
 
-/// Answers five numbers for each pair.
 KINESPHERE_EXPORT(monitor_open_pairs) void monitor_open_pairs(const Monitor* monitor) {
   answer().clear();
   for (const OpenPair& pair : monitor->open_pairs())
-    answer_with({number_of_track(pair.first), number_of_track(pair.second), static_cast<double>(pair.level),
-                 static_cast<double>(pair.verdict), pair.since});
+    answer_record([&](NumberWriter& writer) { fields::each_open_pair_field(writer, pair); });
 }
-/// Answers seven numbers for each pair.
 KINESPHERE_EXPORT(monitor_predicted_pairs) void monitor_predicted_pairs(const Monitor* monitor) {
   answer().clear();
   for (const PredictedPair& pair : monitor->predicted_pairs())
-    answer_with({number_of_track(pair.first), number_of_track(pair.second), static_cast<double>(pair.level),
-                 pair.since, pair.likely_time, pair.closest_time, pair.closest_distance});
+    answer_record([&](NumberWriter& writer) { fields::each_predicted_pair_field(writer, pair); });
 }
 KINESPHERE_EXPORT(monitor_open_pair_count) std::size_t monitor_open_pair_count(const Monitor* monitor) {
   return monitor->open_pair_count();
@@ -289,11 +222,10 @@ KINESPHERE_EXPORT(monitor_open_pair_count) std::size_t monitor_open_pair_count(c
 KINESPHERE_EXPORT(monitor_crowd) void monitor_crowd(const Monitor* monitor, std::size_t pairs) {
   answer_tracks(monitor->crowd(pairs));
 }
-/// Answers three numbers for each request.
 KINESPHERE_EXPORT(monitor_needed) void monitor_needed(const Monitor* monitor, double until) {
   answer().clear();
   for (const ReportRequest& request : monitor->needed(until))
-    answer_with({number_of_track(request.track), request.by, number_of_track(request.other)});
+    answer_record([&](NumberWriter& writer) { fields::each_report_request_field(writer, request); });
 }
 
 }  // namespace kinesphere::browser

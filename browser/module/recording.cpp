@@ -28,6 +28,10 @@ KINESPHERE_EXPORT(replay_step) std::size_t replay_step(const Replay* replay) { r
 KINESPHERE_EXPORT(replay_step_count) std::size_t replay_step_count(const Replay* replay) {
   return replay->step_count();
 }
+/// Answers the lower and the upper half of the hash of all outcomes so far.
+KINESPHERE_EXPORT(replay_hash) void replay_hash(const Replay* replay) {
+  answer() = {static_cast<double>(replay->hash() & 0xffffffffu), static_cast<double>(replay->hash() >> 32)};
+}
 /// Read-only; valid while the replay exists and is not advanced.
 KINESPHERE_EXPORT(replay_world) const World* replay_world(const Replay* replay) { return &replay->world(); }
 

@@ -11,40 +11,25 @@
 namespace kinesphere::browser {
 namespace {
 
+/// Reads what definitionNumbers() in package/src/definition.ts writes: the fields, and the box and the filter
+/// of the walls with whether they are there.
 WorldDefinition definition_at(const double* numbers) {
+  NumberReader reader(numbers);
   WorldDefinition definition;
-  if (numbers[0] != 0.0) definition.box = Box{vector_at(numbers + 1), vector_at(numbers + 4)};
-  definition.periodic = {numbers[7] != 0.0, numbers[8] != 0.0, numbers[9] != 0.0};
-  definition.dimensions = static_cast<int>(numbers[10]);
-  definition.contact_tolerance = numbers[11];
-  definition.separation_distance = numbers[12];
-  definition.contacts = static_cast<ContactEvents>(numbers[13]);
-  definition.allow_overlap = numbers[14] != 0.0;
-  definition.zeno_interval = numbers[15];
-  definition.start_time = numbers[16];
-  definition.spread_window_starts = numbers[17] != 0.0;
-  if (numbers[18] != 0.0) definition.wall_filter = filter_at(numbers + 19);
-  definition.adopt_observed_limits = numbers[22] != 0.0;
+  fields::each_world_definition_field(reader, definition);
+  if (const bool has_box = reader.flag(); has_box) {
+    const Vec3 lower = reader.take<Vec3>();
+    definition.box = Box{lower, reader.take<Vec3>()};
+  } else {
+    reader.take<State>();
+  }
+  if (reader.flag()) definition.wall_filter = reader.take<Filter>();
   return definition;
 }
 
 World* handle_of(Result<World> world) { return is_good(world) ? new World(std::move(*world)) : nullptr; }
 
 }  // namespace
-
-std::uint64_t mask_of(double number) {
-  return number < 0.0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(number);
-}
-
-Filter filter_at(const double* numbers) {
-  return {static_cast<std::uint64_t>(numbers[0]), mask_of(numbers[1]), static_cast<std::int32_t>(numbers[2])};
-}
-
-void put(const Filter& filter, double* numbers) {
-  numbers[0] = static_cast<double>(filter.category);
-  numbers[1] = filter.mask == Filter{}.mask ? -1.0 : static_cast<double>(filter.mask);
-  numbers[2] = filter.group;
-}
 
 /// `numbers`: how many vertices and triangles there are, and then both.
 Result<Shape> mesh_at(const double* numbers) {
@@ -86,19 +71,7 @@ Result<Shape> shape_at(int kind, const double* numbers) {
 
 BodyDefinition body_at(const double* numbers) {
   BodyDefinition body;
-  body.position = vector_at(numbers);
-  body.velocity = vector_at(numbers + 3);
-  body.radius = numbers[6];
-  body.acceleration_limit = numbers[7];
-  body.planned_acceleration = vector_at(numbers + 8);
-  body.position_error = numbers[11];
-  body.velocity_error = numbers[12];
-  body.solid = numbers[13] != 0.0;
-  body.sensor_class = static_cast<SensorClass>(numbers[14]);
-  body.filter = filter_at(numbers + 15);
-  body.user_data = static_cast<std::uint64_t>(numbers[18]);
-  body.mass = numbers[19];
-  if (numbers[20] != 0.0) body.contacts = static_cast<ContactEvents>(numbers[20]);
+  fields::each_body_definition_field(NumberReader(numbers), body);
   return body;
 }
 
@@ -136,28 +109,15 @@ KINESPHERE_EXPORT(world_definition) const WorldDefinition* world_definition(cons
 /// Writes the numbers that definition_at() reads.
 KINESPHERE_EXPORT(definition_numbers) void definition_numbers(const WorldDefinition* written) {
   const WorldDefinition& definition = *written;
-  auto& numbers = answer();
-  numbers.assign(23, 0.0);
-  if (definition.box) {
-    numbers[0] = 1.0;
-    put(definition.box->lower, numbers.data() + 1);
-    put(definition.box->upper, numbers.data() + 4);
-  }
-  for (int axis = 0; axis < 3; ++axis)
-    numbers[7 + static_cast<std::size_t>(axis)] = definition.periodic[axis] ? 1.0 : 0.0;
-  numbers[10] = definition.dimensions;
-  numbers[11] = definition.contact_tolerance;
-  numbers[12] = definition.separation_distance;
-  numbers[13] = static_cast<double>(definition.contacts);
-  numbers[14] = definition.allow_overlap ? 1.0 : 0.0;
-  numbers[15] = definition.zeno_interval;
-  numbers[16] = definition.start_time;
-  numbers[17] = definition.spread_window_starts ? 1.0 : 0.0;
-  if (definition.wall_filter) {
-    numbers[18] = 1.0;
-    put(*definition.wall_filter, numbers.data() + 19);
-  }
-  numbers[22] = definition.adopt_observed_limits ? 1.0 : 0.0;
+  // Each field takes at most three numbers.
+  answer().assign(64, 0.0);
+  NumberWriter writer(answer().data());
+  fields::each_world_definition_field(writer, definition);
+  writer.put(definition.box.has_value());
+  writer.put(definition.box.value_or(Box{}).lower);
+  writer.put(definition.box.value_or(Box{}).upper);
+  writer.put(definition.wall_filter.has_value());
+  writer.put(definition.wall_filter.value_or(Filter{}));
 }
 
 KINESPHERE_EXPORT(world_time) double world_time(const World* world) { return world->time(); }
@@ -248,8 +208,9 @@ KINESPHERE_EXPORT(world_set_mass) bool world_set_mass(World* world, double body,
 }
 KINESPHERE_EXPORT(world_set_motion_limits)
 bool world_set_motion_limits(World* world, double body, const double* limits) {
-  return is_good(world->change(body_of(body), {.motion_limits = MotionLimits{limits[0], vector_at(limits + 1),
-                                                                             limits[4], limits[5]}}));
+  MotionLimits promised;
+  fields::each_motion_limits_field(NumberReader(limits), promised);
+  return is_good(world->change(body_of(body), {.motion_limits = promised}));
 }
 KINESPHERE_EXPORT(world_disable) bool world_disable(World* world, double body) {
   return is_good(world->disable(body_of(body)));

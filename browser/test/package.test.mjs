@@ -384,15 +384,21 @@ test("a recording made here replays", () => {
   const { world, motion } = pair();
   world.startRecording();
   const events = [...world.events(5, motion)];
-  const replay = new Replay(world.stopRecording());
+  const recording = world.stopRecording();
+  const [replay, other] = [new Replay(recording), new Replay(recording)];
+  assert.equal(replay.hash, other.hash);
   const again = [];
   while (!replay.finished) {
+    assert.match(replay.hash, /^[0-9a-f]{16}$/);
     const event = replay.advance();
     if (event !== null) again.push(event);
   }
   assert.deepEqual(again.map((event) => event.time), events.map((event) => event.time));
   assert.equal(replay.world.time, 5);
   assert.equal(replay.world.body(0).radius, 1);
+  assert.notEqual(replay.hash, other.hash);
+  while (!other.finished) other.advance();
+  assert.equal(replay.hash, other.hash);
 });
 
 test("zones, fixed shapes and sensors tell", () => {

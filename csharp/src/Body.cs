@@ -18,13 +18,8 @@ namespace Kinesphere
         public override string ToString() { return IsNone ? "no body" : "body " + index; }
     }
 
-    /// <summary>Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other,
-    /// unless both are in one group, which decides by its sign. `new Filter()`, with the mask 0, lets it touch none.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct Filter
+    public partial struct Filter
     {
-        public ulong Category, Mask;
-        public int Group;
         public Filter(ulong category, ulong mask = ulong.MaxValue, int group = 0)
         {
             Category = category;
@@ -35,87 +30,14 @@ namespace Kinesphere
         public static Filter Default { get { return new Filter(1); } }
     }
 
-    /// <summary>Limits within which a body moves; fields as in BodyDefinition.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct MotionLimits
+    public partial struct BodyView
     {
-        public double AccelerationLimit, PositionError, VelocityError;
-        public Vector PlannedAcceleration;
-    }
-
-    /// <summary>A sphere and the limits of its motion. Begin with Default.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct BodyDefinition
-    {
-        uint structSize;
-        int solid;
-        public Contacts Contacts;
-        public int SensorClass;
-        public double Radius, AccelerationLimit, PositionError, VelocityError, Mass;
-        public Vector PlannedAcceleration, Position, Velocity;
-        public Filter Filter;
-        public ulong UserData;
-        public bool Solid { get { return solid != 0; } set { solid = value ? 1 : 0; } }
-        internal void Require(string name) { Native.RequireDefault(structSize, "BodyDefinition", name); }
-        public static BodyDefinition Default
-        {
-            get
-            {
-                BodyDefinition made;
-                Native.Check(Native.ks_body_definition_init(out made, Native.SizeOf<BodyDefinition>()));
-                return made;
-            }
-        }
-    }
-
-    /// <summary>A body that never moves. Begin with Default.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct StaticDefinition
-    {
-        uint structSize;
-        int solid;
-        public int SensorClass;
-        public Shape Shape;
-        public Filter Filter;
-        public ulong UserData;
-        public bool Solid { get { return solid != 0; } set { solid = value ? 1 : 0; } }
-        internal void Require(string name) { Native.RequireDefault(structSize, "StaticDefinition", name); }
-        public static StaticDefinition Default
-        {
-            get
-            {
-                StaticDefinition made;
-                Native.Check(Native.ks_static_definition_init(out made, Native.SizeOf<StaticDefinition>()));
-                return made;
-            }
-        }
-    }
-
-    /// <summary>What a world knows of a body.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct BodyView
-    {
-        uint structSize;
-        int enabled, isStatic, sleeping;
-        public double ReportTime;
         /// <summary>Corners of a box that contains the body from now until BoxEnd.</summary>
-        public Vector Lower, Upper;
-        public double BoxEnd;
+        public Vector Lower { get { return box.Lower; } }
+        public Vector Upper { get { return box.Upper; } }
         /// <summary>Boxes that it has travelled along periodic axes.</summary>
-        public long ImageX, ImageY, ImageZ;
-        /// <summary>Its state is that of the last report.</summary>
-        public BodyDefinition Definition;
-        public bool Enabled { get { return enabled != 0; } }
-        public bool IsStatic { get { return isStatic != 0; } }
-        public bool Sleeping { get { return sleeping != 0; } }
-        internal static BodyView New { get { return new BodyView { structSize = Native.SizeOf<BodyView>() }; } }
-    }
-
-    /// <summary>A body within a sensor distance (length) of another one.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct SensorOverlap
-    {
-        public BodyId Body;
-        public double Distance;
+        public long ImageX { get { return image0; } }
+        public long ImageY { get { return image1; } }
+        public long ImageZ { get { return image2; } }
     }
 }

@@ -4,8 +4,6 @@ using System.Runtime.InteropServices;
 
 namespace Kinesphere
 {
-    [Flags] public enum Axes : uint { None = 0, X = 1, Y = 2, Z = 4 }
-
     [StructLayout(LayoutKind.Sequential)]
     public struct Vector
     {
@@ -46,22 +44,24 @@ namespace Kinesphere
         }
     }
 
-    [StructLayout(LayoutKind.Sequential)]
-    public struct Shape
+    public partial struct Shape
     {
-        int kind;
-        Vector a, b, c;
-        double number;
-        public static Shape Ball(Vector centre, double radius) { return new Shape { a = centre, number = radius }; }
+        public static Shape Ball(Vector centre, double radius) { return new Shape { points0 = centre, number = radius }; }
         public static Shape HalfSpace(Vector normal, double offset)
         {
-            return new Shape { kind = 1, a = normal, number = offset };
+            return new Shape { kind = Native.ShapeKind.HalfSpace, points0 = normal, number = offset };
         }
-        public static Shape Box(Vector lower, Vector upper) { return new Shape { kind = 2, a = lower, b = upper }; }
-        public static Shape Triangle(Vector a, Vector b, Vector c) { return new Shape { kind = 3, a = a, b = b, c = c }; }
+        public static Shape Box(Vector lower, Vector upper)
+        {
+            return new Shape { kind = Native.ShapeKind.Box, points0 = lower, points1 = upper };
+        }
+        public static Shape Triangle(Vector a, Vector b, Vector c)
+        {
+            return new Shape { kind = Native.ShapeKind.Triangle, points0 = a, points1 = b, points2 = c };
+        }
         internal static Shape Mesh(ulong handle)
         {
-            return new Shape { kind = 4, number = BitConverter.Int64BitsToDouble((long)handle) };
+            return new Shape { kind = Native.ShapeKind.Mesh, number = BitConverter.Int64BitsToDouble((long)handle) };
         }
     }
 

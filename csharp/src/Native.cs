@@ -1,30 +1,60 @@
+// Generated from include/kinesphere.h by interface/generate.py: change the header, and run that.
 // The functions of kinesphere.h, which explains them, and its records with pointers.
 using System;
 using System.Runtime.InteropServices;
 
+// Some fields are for C alone.
+#pragma warning disable 169, 414, 649
+
 namespace Kinesphere
 {
-    unsafe static class Native
+    unsafe static partial class Native
     {
-        const string library = "kinesphere-c";
+        public enum BoundKind
+        {
+            Ball = 0,
+            Cylinder = 1,
+        }
 
-        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-        public delegate int Probe(BodyId* bodies, UIntPtr count, double time, State* states, IntPtr user);
+        public enum MotionKind
+        {
+            /// <summary>Free flight under `gravity`.</summary>
+            Ballistic = 0,
+            /// <summary>Random accelerations up to AccelerationLimits, new at multiples of `interval`.</summary>
+            RandomForces = 1,
+            /// <summary>A game's frames: each body goes straight from its position in one frame to that in the
+            /// next.</summary>
+            Frames = 2,
+            Steered = 3,
+        }
+
+        public enum ShapeKind
+        {
+            Ball = 0,
+            HalfSpace = 1,
+            Box = 2,
+            Triangle = 3,
+            Mesh = 4,
+        }
+
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         public delegate int RotationProbe(BodyId* bodies, UIntPtr count, double time, Rotation* rotations, IntPtr user);
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-        public delegate int Respond(Event* happened, Response* response, IntPtr user);
-        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-        public delegate int Sink(Event* happened, IntPtr user);
-        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         public delegate int PairFilter(BodyId first, BodyId second, IntPtr user);
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        public delegate int Probe(BodyId* bodies, UIntPtr count, double time, State* states, IntPtr user);
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        public delegate int Respond(Event* @event, Response* response, IntPtr user);
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        public delegate int Sink(Event* @event, IntPtr user);
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         public delegate int Poll(ulong* tracks, UIntPtr count, double time, TrackReport* reports, byte* hasReport, IntPtr user);
 
         [StructLayout(LayoutKind.Sequential)]
         public struct Box
         {
-            public Vector Lower, Upper;
+            public Vector Lower;
+            public Vector Upper;
         }
 
         [StructLayout(LayoutKind.Sequential)]
@@ -38,30 +68,56 @@ namespace Kinesphere
         [StructLayout(LayoutKind.Sequential)]
         public struct RunDefinition
         {
-            public uint StructSize;
+            public uint structSize;
             public int Threads;
-            public double Restitution, RestingSpeed;
-            public IntPtr Respond, RespondUser, Sink, SinkUser;
+            public double Restitution;
+            public double RestingSpeed;
+            public IntPtr Respond;
+            public IntPtr RespondUser;
+            public IntPtr Sink;
+            public IntPtr SinkUser;
+            public static RunDefinition Default
+            {
+                get
+                {
+                    RunDefinition made;
+                    Native.Check(Native.ks_run_definition_init(out made, Native.SizeOf<RunDefinition>()));
+                    return made;
+                }
+            }
         }
 
         [StructLayout(LayoutKind.Sequential)]
         public struct MotionDefinition
         {
-            public uint StructSize;
-            public int Kind;
+            public uint structSize;
+            public MotionKind Kind;
             public UIntPtr Count;
             public State* States;
-            public double* Radii, Masses, AccelerationLimits;
+            public double* Radii;
+            public double* Masses;
+            public double* AccelerationLimits;
             public Vector Gravity;
-            public double Interval, PositionError;
+            public double Interval;
+            public double PositionError;
             public ulong Seed;
             public BodyDefinition* Like;
+            public static MotionDefinition Default
+            {
+                get
+                {
+                    MotionDefinition made;
+                    Native.Check(Native.ks_motion_definition_init(out made, Native.SizeOf<MotionDefinition>()));
+                    return made;
+                }
+            }
         }
 
         [StructLayout(LayoutKind.Sequential)]
         public struct SeparationRule
         {
-            public UIntPtr FirstClass, SecondClass;
+            public UIntPtr FirstClass;
+            public UIntPtr SecondClass;
             public Separation* Levels;
             public UIntPtr LevelCount;
         }
@@ -69,60 +125,73 @@ namespace Kinesphere
         [StructLayout(LayoutKind.Sequential)]
         public struct MonitorDefinition
         {
-            public uint StructSize;
-            public int Dimensions, HasStartTime;
+            public uint structSize;
+            public int Dimensions;
+            public int HasStartTime;
             public double StartTime;
             public TrackClass* Classes;
             public UIntPtr ClassCount;
             public SeparationRule* Separations;
             public UIntPtr SeparationCount;
-            public double Tolerance, TimeResolution, Window, StaleAfter, DropAfter, PredictionHold;
-            public double PredictionConfirmation, PredictionMargin, PredictionErrorPart;
-            public ulong ShardOf, ShardFirst, ShardCount;
+            public double Tolerance;
+            public double TimeResolution;
+            public double Window;
+            public double StaleAfter;
+            public double DropAfter;
+            public double PredictionHold;
+            public double PredictionConfirmation;
+            public double PredictionMargin;
+            public double PredictionErrorPart;
+            public ulong ShardOf;
+            public ulong ShardFirst;
+            public ulong ShardCount;
+            public static MonitorDefinition Default
+            {
+                get
+                {
+                    MonitorDefinition made;
+                    Native.Check(Native.ks_monitor_definition_init(out made, Native.SizeOf<MonitorDefinition>()));
+                    return made;
+                }
+            }
         }
 
-        public const int BufferTooSmall = 6;
-        public const int CallbackFailed = 7;
-
-        public static uint SizeOf<T>() { return (uint)Marshal.SizeOf(typeof(T)); }
-
-        /// <summary>Throws unless a definition was made by its property Default, which sets its size.</summary>
-        public static void RequireDefault(uint size, string type, string argument)
-        {
-            if (size != 0) return;
-            throw new ArgumentException(
-                "begin with " + type + ".Default and change its fields: `new " + type + "()` has no defaults", argument);
-        }
-
-        /// <summary>Throws what the last call of this thread has to say, unless it succeeded.</summary>
-        public static void Check(int status)
-        {
-            if (status == 0) return;
-            throw new KinesphereException(Marshal.PtrToStringAnsi(ks_status_name(status)),
-                Marshal.PtrToStringAnsi(ks_last_error_argument()), ks_last_error_body(),
-                Marshal.PtrToStringAnsi(ks_last_error_message()));
-        }
-
-        [DllImport(library)] public static extern IntPtr ks_version();
-        [DllImport(library)] public static extern IntPtr ks_status_name(int status);
-        [DllImport(library)] public static extern IntPtr ks_last_error_message();
-        [DllImport(library)] public static extern IntPtr ks_last_error_argument();
-        [DllImport(library)] public static extern BodyId ks_last_error_body();
-
-        [DllImport(library)] public static extern int ks_world_definition_init(out WorldDefinition made, uint size);
-        [DllImport(library)] public static extern int ks_body_definition_init(out BodyDefinition made, uint size);
-        [DllImport(library)] public static extern int ks_static_definition_init(out StaticDefinition made, uint size);
-        [DllImport(library)] public static extern int ks_rigid_definition_init(out RigidDefinition made, uint size);
-        [DllImport(library)] public static extern int ks_run_definition_init(out RunDefinition made, uint size);
-        [DllImport(library)] public static extern int ks_motion_definition_init(out MotionDefinition made, uint size);
-        [DllImport(library)] public static extern int ks_monitor_definition_init(out MonitorDefinition made, uint size);
-        [DllImport(library)] public static extern int ks_track_report_init(out TrackReport made, uint size);
-
-        [DllImport(library)] public static extern int ks_world_create(ref WorldDefinition definition, out ulong world);
-        [DllImport(library)] public static extern int ks_world_destroy(ulong world);
-        [DllImport(library)] public static extern int ks_world_clone(ulong world, out ulong copy);
         [DllImport(library)]
-        public static extern int ks_world_save(ulong world, byte[] bytes, UIntPtr capacity, out UIntPtr count);
+        public static extern IntPtr ks_last_error_message();
+        [DllImport(library)]
+        public static extern IntPtr ks_last_error_argument();
+        [DllImport(library)]
+        public static extern BodyId ks_last_error_body();
+        [DllImport(library)]
+        public static extern int ks_last_error_callback();
+        [DllImport(library)]
+        public static extern IntPtr ks_status_name(int status);
+        [DllImport(library)]
+        public static extern IntPtr ks_version();
+        [DllImport(library)]
+        public static extern uint ks_abi_version();
+        [DllImport(library)]
+        public static extern int ks_mesh_create(Vector[] vertices, UIntPtr vertexCount, uint[] corners, UIntPtr triangleCount, out ulong mesh);
+        [DllImport(library)]
+        public static extern int ks_mesh_create_chain(Vector[] points, UIntPtr count, out ulong mesh);
+        [DllImport(library)]
+        public static extern int ks_mesh_destroy(ulong mesh);
+        [DllImport(library)]
+        public static extern int ks_world_definition_init(out WorldDefinition definition, uint structSize);
+        [DllImport(library)]
+        public static extern int ks_body_definition_init(out BodyDefinition definition, uint structSize);
+        [DllImport(library)]
+        public static extern int ks_static_definition_init(out StaticDefinition definition, uint structSize);
+        [DllImport(library)]
+        public static extern int ks_rigid_definition_init(out RigidDefinition definition, uint structSize);
+        [DllImport(library)]
+        public static extern int ks_world_create(ref WorldDefinition definition, out ulong world);
+        [DllImport(library)]
+        public static extern int ks_world_destroy(ulong world);
+        [DllImport(library)]
+        public static extern int ks_world_clone(ulong world, out ulong copy);
+        [DllImport(library)]
+        public static extern int ks_world_save(ulong world, [Out] byte[] bytes, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
         public static extern int ks_world_restore(byte[] bytes, UIntPtr count, PairFilter filter, IntPtr user, out ulong world);
         [DllImport(library)]
@@ -130,71 +199,111 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_world_add_static(ulong world, StaticDefinition[] bodies, UIntPtr count, [Out] BodyId[] ids);
         [DllImport(library)]
-        public static extern int ks_world_add_moving_shape(
-            ulong world, ref BodyDefinition body, ref Shape shape, out BodyId id);
+        public static extern int ks_world_add_moving_shape(ulong world, ref BodyDefinition body, ref Shape shape, out BodyId id);
         [DllImport(library)]
-        public static extern int ks_world_add_rigid_body(
-            ulong world, ref BodyDefinition body, ref RigidDefinition rigid, out BodyId id);
-        [DllImport(library)]
-        public static extern int ks_world_set_angular_velocity(ulong world, BodyId body, Vector angularVelocity);
-        [DllImport(library)] public static extern int ks_world_set_rotation(ulong world, BodyId body, ref Rotation rotation);
-        [DllImport(library)]
-        public static extern int ks_world_set_rotation_probe(ulong world, RotationProbe probe, IntPtr user);
-        [DllImport(library)] public static extern int ks_world_rotation(ulong world, BodyId body, out Rotation rotation);
+        public static extern int ks_world_add_rigid_body(ulong world, ref BodyDefinition body, ref RigidDefinition rigid, out BodyId id);
         [DllImport(library)]
         public static extern int ks_world_add_zone(ulong world, ref Shape shape, ulong userData, out BodyId id);
-        [DllImport(library)] public static extern int ks_world_remove(ulong world, BodyId[] bodies, UIntPtr count);
-        [DllImport(library)] public static extern int ks_world_set_velocity(ulong world, BodyId body, Vector velocity);
+        [DllImport(library)]
+        public static extern int ks_world_reserve(ulong world, UIntPtr bodies);
+        [DllImport(library)]
+        public static extern int ks_world_remove(ulong world, BodyId[] bodies, UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_set_velocity(ulong world, BodyId body, Vector velocity);
         [DllImport(library)]
         public static extern int ks_world_set_velocities(ulong world, BodyId[] bodies, Vector[] velocities, UIntPtr count);
-        [DllImport(library)] public static extern int ks_world_teleport(ulong world, BodyId body, ref State state);
-        [DllImport(library)] public static extern int ks_world_set_radius_rate(ulong world, BodyId body, double rate);
-        [DllImport(library)] public static extern int ks_world_set_radius(ulong world, BodyId body, double radius);
-        [DllImport(library)] public static extern int ks_world_set_mass(ulong world, BodyId body, double mass);
+        [DllImport(library)]
+        public static extern int ks_world_set_angular_velocity(ulong world, BodyId body, Vector angularVelocity);
+        [DllImport(library)]
+        public static extern int ks_world_set_rotation(ulong world, BodyId body, ref Rotation rotation);
+        [DllImport(library)]
+        public static extern int ks_world_set_rotation_probe(ulong world, RotationProbe probe, IntPtr user);
+        [DllImport(library)]
+        public static extern int ks_world_teleport(ulong world, BodyId body, ref State state);
+        [DllImport(library)]
+        public static extern int ks_world_set_radius(ulong world, BodyId body, double radius);
+        [DllImport(library)]
+        public static extern int ks_world_set_radius_rate(ulong world, BodyId body, double rate);
+        [DllImport(library)]
+        public static extern int ks_world_set_mass(ulong world, BodyId body, double mass);
         [DllImport(library)]
         public static extern int ks_world_set_motion_limits(ulong world, BodyId body, ref MotionLimits limits);
-        [DllImport(library)] public static extern int ks_world_set_shape(ulong world, BodyId body, ref Shape shape);
-        [DllImport(library)] public static extern int ks_world_set_solid(ulong world, BodyId body, int solid);
-        [DllImport(library)] public static extern int ks_world_set_user_data(ulong world, BodyId body, ulong data);
-        [DllImport(library)] public static extern int ks_world_set_sensor_class(ulong world, BodyId body, int sensorClass);
-        [DllImport(library)] public static extern int ks_world_set_pair_filter(ulong world, PairFilter filter, IntPtr user);
-        [DllImport(library)] public static extern int ks_world_refresh_filter(ulong world, BodyId body);
-        [DllImport(library)] public static extern int ks_world_reserve(ulong world, UIntPtr bodies);
-        [DllImport(library)] public static extern int ks_world_set_filter(ulong world, BodyId body, ref Filter filter);
+        [DllImport(library)]
+        public static extern int ks_world_set_shape(ulong world, BodyId body, ref Shape shape);
+        [DllImport(library)]
+        public static extern int ks_world_disable(ulong world, BodyId body);
+        [DllImport(library)]
+        public static extern int ks_world_enable(ulong world, BodyId body, ref State state);
+        [DllImport(library)]
+        public static extern int ks_world_sleep(ulong world, BodyId body);
+        [DllImport(library)]
+        public static extern int ks_world_wake(ulong world, BodyId body);
+        [DllImport(library)]
+        public static extern int ks_world_set_user_data(ulong world, BodyId body, ulong data);
+        [DllImport(library)]
+        public static extern int ks_world_set_filter(ulong world, BodyId body, ref Filter filter);
+        [DllImport(library)]
+        public static extern int ks_world_set_pair_filter(ulong world, PairFilter filter, IntPtr user);
+        [DllImport(library)]
+        public static extern int ks_world_refresh_filter(ulong world, BodyId body);
+        [DllImport(library)]
+        public static extern int ks_world_set_solid(ulong world, BodyId body, int solid);
         [DllImport(library)]
         public static extern int ks_world_set_sensor(ulong world, int sensorClass, double[] distances, UIntPtr count, ulong mask);
-        [DllImport(library)] public static extern int ks_world_disable(ulong world, BodyId body);
-        [DllImport(library)] public static extern int ks_world_enable(ulong world, BodyId body, ref State state);
-        [DllImport(library)] public static extern int ks_world_sleep(ulong world, BodyId body);
-        [DllImport(library)] public static extern int ks_world_wake(ulong world, BodyId body);
-        [DllImport(library)] public static extern int ks_world_time(ulong world, out double time);
-        [DllImport(library)] public static extern int ks_world_size(ulong world, out UIntPtr bodies);
-        [DllImport(library)] public static extern int ks_world_contains(ulong world, BodyId body, out int contains);
-        [DllImport(library)] public static extern int ks_world_body(ulong world, BodyId body, ref BodyView view);
-        [DllImport(library)] public static extern int ks_world_probe_count(ulong world, out ulong probes);
+        [DllImport(library)]
+        public static extern int ks_world_set_sensor_class(ulong world, BodyId body, int sensorClass);
+        [DllImport(library)]
+        public static extern int ks_world_time(ulong world, out double time);
+        [DllImport(library)]
+        public static extern int ks_world_size(ulong world, out UIntPtr bodies);
+        [DllImport(library)]
+        public static extern int ks_world_contains(ulong world, BodyId body, out int contains);
+        [DllImport(library)]
+        public static extern int ks_world_body(ulong world, BodyId body, ref BodyView view);
+        [DllImport(library)]
+        public static extern int ks_world_rotation(ulong world, BodyId body, out Rotation rotation);
         [DllImport(library)]
         public static extern int ks_world_bodies(ulong world, [Out] BodyId[] bodies, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
-        public static extern int ks_world_sensor_overlaps(
-            ulong world, BodyId body, [Out] SensorOverlap[] overlaps, UIntPtr capacity, out UIntPtr count);
-        [DllImport(library)]
         public static extern int ks_world_touching(ulong world, BodyId body, [Out] BodyId[] partners, UIntPtr capacity, out UIntPtr count);
-
         [DllImport(library)]
-        public static extern int ks_bounce(ref Event happened, double restitution, double restingSpeed, ref Response response);
-        [DllImport(library)] public static extern int ks_event_hash_add(ref EventHash hash, ref Event happened);
-        [DllImport(library)] public static extern int ks_event_hash_value(ref EventHash hash, out ulong value);
-
+        public static extern int ks_world_sensor_overlaps(ulong world, BodyId body, [Out] SensorOverlap[] overlaps, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_probe_count(ulong world, out ulong probes);
+        [DllImport(library)]
+        public static extern int ks_world_set_profiling(ulong world, int on);
+        [DllImport(library)]
+        public static extern int ks_world_timings(ulong world, out Timings timings);
+        [DllImport(library)]
+        public static extern int ks_world_busiest(ulong world, UIntPtr most, [Out] BusyBody[] bodies, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern IntPtr ks_probe_reason_name(ProbeReason reason);
+        [DllImport(library)]
+        public static extern IntPtr ks_probe_reason_advice(ProbeReason reason);
+        [DllImport(library)]
+        public static extern IntPtr ks_event_kind_name(EventKind kind);
+        [DllImport(library)]
+        public static extern int ks_bounce(ref Event @event, double restitution, double restingSpeed, ref Response response);
+        [DllImport(library)]
+        public static extern int ks_event_hash_add(ref EventHash hash, ref Event @event);
+        [DllImport(library)]
+        public static extern int ks_event_hash_value(ref EventHash hash, out ulong value);
         [DllImport(library)]
         public static extern int ks_probe_motions(BodyId* bodies, UIntPtr count, double time, State* states, IntPtr user);
         [DllImport(library)]
-        public static extern int ks_world_advance(ulong world, double until, Probe probe, IntPtr user, ref Event next);
-        [DllImport(library)] public static extern int ks_world_run(ulong world, double until, ref RunDefinition definition);
+        public static extern int ks_world_advance(ulong world, double until, Probe probe, IntPtr user, ref Event @event);
+        [DllImport(library)]
+        public static extern int ks_run_definition_init(out RunDefinition definition, uint structSize);
+        [DllImport(library)]
+        public static extern int ks_world_run(ulong world, double until, ref RunDefinition definition);
+        [DllImport(library)]
+        public static extern int ks_motion_definition_init(out MotionDefinition definition, uint structSize);
         [DllImport(library)]
         public static extern int ks_world_add_motion(ulong world, ref MotionDefinition definition, out uint motion, [Out] BodyId[] ids);
         [DllImport(library)]
-        public static extern int ks_world_add_to_motion(
-            ulong world, uint motion, ref MotionDefinition definition, [Out] uint[] numbers, [Out] BodyId[] ids);
+        public static extern int ks_world_add_to_motion(ulong world, uint motion, ref MotionDefinition definition, [Out] uint[] numbers, [Out] BodyId[] ids);
+        [DllImport(library)]
+        public static extern int ks_world_steer(ulong world, BodyId body, Vector acceleration);
         [DllImport(library)]
         public static extern int ks_world_push_frame(ulong world, uint motion, Vector[] positions, UIntPtr count);
         [DllImport(library)]
@@ -205,83 +314,79 @@ namespace Kinesphere
         public static extern int ks_world_latest_frame_time(ulong world, uint motion, out double time);
         [DllImport(library)]
         public static extern int ks_world_states(ulong world, BodyId[] bodies, UIntPtr count, double time, [Out] State[] states);
-        [DllImport(library)] public static extern int ks_world_steer(ulong world, BodyId body, Vector acceleration);
         [DllImport(library)]
         public static extern int ks_world_safe_until(ulong world, Probe probe, IntPtr user, out Prediction prediction);
         [DllImport(library)]
-        public static extern int ks_world_earliest_approach(
-            ulong world, BodyId body, double distance, Probe probe, IntPtr user, out Prediction prediction);
-        [DllImport(library)]
-        public static extern int ks_world_pair_safe_until(
-            ulong world, BodyId first, BodyId second, double distance, Probe probe, IntPtr user, out Prediction prediction);
-        [DllImport(library)]
-        public static extern int ks_world_distance_limits(ulong world, BodyId first, BodyId second, double time, Probe probe,
-            IntPtr user, out double lower, out double upper);
-        [DllImport(library)]
-        public static extern int ks_world_overlapping_sphere(ulong world, Vector centre, double radius, Probe probe, IntPtr user,
-            [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
-        [DllImport(library)]
-        public static extern int ks_world_overlapping_box(ulong world, ref Box box, Probe probe, IntPtr user, [Out] Hit[] hits,
-            UIntPtr capacity, out UIntPtr count);
-        [DllImport(library)]
-        public static extern int ks_world_nearest(ulong world, Vector point, UIntPtr bodies, Probe probe, IntPtr user,
-            [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
-        [DllImport(library)]
         public static extern int ks_world_earliest_contact(ulong world, BodyId body, Probe probe, IntPtr user, out Prediction prediction);
         [DllImport(library)]
-        public static extern int ks_world_cast(ulong world, Vector origin, Vector direction, double length, double radius, Probe probe,
-            IntPtr user, [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
-
-        [DllImport(library)] public static extern int ks_world_set_profiling(ulong world, int on);
-        [DllImport(library)] public static extern int ks_world_timings(ulong world, out Timings timings);
+        public static extern int ks_world_earliest_approach(ulong world, BodyId body, double distance, Probe probe, IntPtr user, out Prediction prediction);
         [DllImport(library)]
-        public static extern int ks_world_busiest(ulong world, UIntPtr most, [Out] BusyBody[] bodies, UIntPtr capacity, out UIntPtr count);
-        [DllImport(library)] public static extern IntPtr ks_probe_reason_advice(ProbeReason reason);
-
-        [DllImport(library)] public static extern int ks_world_start_recording(ulong world);
-        [DllImport(library)] public static extern int ks_world_stop_recording(ulong world);
+        public static extern int ks_world_pair_safe_until(ulong world, BodyId first, BodyId second, double distance, Probe probe, IntPtr user, out Prediction prediction);
         [DllImport(library)]
-        public static extern int ks_world_recording(ulong world, byte[] bytes, UIntPtr capacity, out UIntPtr count);
+        public static extern int ks_world_distance_limits(ulong world, BodyId first, BodyId second, double time, Probe probe, IntPtr user, out double lower, out double upper);
+        [DllImport(library)]
+        public static extern int ks_world_overlapping_sphere(ulong world, Vector centre, double radius, Probe probe, IntPtr user, [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_overlapping_box(ulong world, ref Box box, Probe probe, IntPtr user, [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_nearest(ulong world, Vector point, UIntPtr bodies, Probe probe, IntPtr user, [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_cast(ulong world, Vector origin, Vector direction, double length, double radius, Probe probe, IntPtr user, [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_start_recording(ulong world);
+        [DllImport(library)]
+        public static extern int ks_world_stop_recording(ulong world);
+        [DllImport(library)]
+        public static extern int ks_world_recording(ulong world, [Out] byte[] bytes, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
         public static extern int ks_replay_open(byte[] bytes, UIntPtr count, PairFilter filter, IntPtr user, out ulong replay);
-        [DllImport(library)] public static extern int ks_replay_destroy(ulong replay);
         [DllImport(library)]
-        public static extern int ks_mesh_create(Vector[] vertices, UIntPtr vertexCount, uint[] corners, UIntPtr triangleCount, out ulong mesh);
+        public static extern int ks_replay_destroy(ulong replay);
         [DllImport(library)]
-        public static extern int ks_mesh_create_chain(Vector[] points, UIntPtr count, out ulong mesh);
-        [DllImport(library)] public static extern int ks_mesh_destroy(ulong mesh);
-        [DllImport(library)] public static extern int ks_replay_advance(ulong replay, ref Event next);
-        [DllImport(library)] public static extern int ks_replay_finished(ulong replay, out int finished);
-        [DllImport(library)] public static extern int ks_replay_steps(ulong replay, out UIntPtr repeated, out UIntPtr total);
-        [DllImport(library)] public static extern int ks_replay_hash(ulong replay, out ulong hash);
-        [DllImport(library)] public static extern int ks_replay_world(ulong replay, out ulong copy);
-
+        public static extern int ks_replay_advance(ulong replay, ref Event @event);
+        [DllImport(library)]
+        public static extern int ks_replay_finished(ulong replay, out int finished);
+        [DllImport(library)]
+        public static extern int ks_replay_steps(ulong replay, out UIntPtr repeated, out UIntPtr total);
+        [DllImport(library)]
+        public static extern int ks_replay_hash(ulong replay, out ulong hash);
+        [DllImport(library)]
+        public static extern int ks_replay_world(ulong replay, out ulong copy);
+        [DllImport(library)]
+        public static extern int ks_monitor_definition_init(out MonitorDefinition definition, uint structSize);
+        [DllImport(library)]
+        public static extern int ks_track_report_init(out TrackReport report, uint structSize);
+        [DllImport(library)]
+        public static extern IntPtr ks_monitor_event_kind_name(MonitorEventKind kind);
+        [DllImport(library)]
+        public static extern IntPtr ks_verdict_name(Verdict verdict);
         [DllImport(library)]
         public static extern int ks_monitor_create(ref MonitorDefinition definition, out ulong monitor);
-        [DllImport(library)] public static extern int ks_monitor_destroy(ulong monitor);
+        [DllImport(library)]
+        public static extern int ks_monitor_destroy(ulong monitor);
+        [DllImport(library)]
+        public static extern int ks_monitor_save(ulong monitor, [Out] byte[] bytes, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_monitor_restore(byte[] bytes, UIntPtr count, out ulong monitor);
         [DllImport(library)]
         public static extern int ks_monitor_report(ulong monitor, ulong[] tracks, TrackReport[] reports, UIntPtr count);
-        [DllImport(library)] public static extern int ks_monitor_remove(ulong monitor, ulong track);
         [DllImport(library)]
-        public static extern int ks_monitor_advance(ulong monitor, double until, Poll poll, IntPtr user, ref MonitorEvent next);
+        public static extern int ks_monitor_remove(ulong monitor, ulong track);
         [DllImport(library)]
-        public static extern int ks_monitor_save(ulong monitor, byte[] bytes, UIntPtr capacity, out UIntPtr count);
-        [DllImport(library)] public static extern int ks_monitor_restore(byte[] bytes, UIntPtr count, out ulong monitor);
+        public static extern int ks_monitor_advance(ulong monitor, double until, Poll poll, IntPtr user, ref MonitorEvent @event);
+        [DllImport(library)]
+        public static extern int ks_monitor_time(ulong monitor, out double time);
         [DllImport(library)]
         public static extern int ks_monitor_tracks(ulong monitor, [Out] ulong[] tracks, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
-        public static extern int ks_monitor_places(
-            ulong monitor, ulong track, [Out] TrackPlace[] places, UIntPtr capacity, out UIntPtr count);
-        [DllImport(library)]
-        public static extern int ks_monitor_needed(
-            ulong monitor, double until, [Out] ReportRequest[] requests, UIntPtr capacity, out UIntPtr count);
-        [DllImport(library)] public static extern int ks_monitor_time(ulong monitor, out double time);
+        public static extern int ks_monitor_places(ulong monitor, ulong track, [Out] TrackPlace[] places, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
         public static extern int ks_monitor_answer(ulong monitor, ulong first, ulong second, uint level, ref PairAnswer answer);
         [DllImport(library)]
         public static extern int ks_monitor_open_pairs(ulong monitor, [Out] OpenPair[] pairs, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
-        public static extern int ks_monitor_predicted_pairs(ulong monitor, [Out] PredictedPair[] pairs, UIntPtr capacity,
-            out UIntPtr count);
+        public static extern int ks_monitor_predicted_pairs(ulong monitor, [Out] PredictedPair[] pairs, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_monitor_needed(ulong monitor, double until, [Out] ReportRequest[] requests, UIntPtr capacity, out UIntPtr count);
     }
 }

@@ -34,30 +34,9 @@ namespace Kinesphere
         }
     }
 
-    /// <summary>What a rigid body has beside its BodyDefinition and its parts. Begin with Default.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct RigidDefinition
+    public unsafe partial struct RigidDefinition
     {
-        uint structSize;
-        UIntPtr partCount;
-        RigidPart* parts;
-        public Rotation Rotation;
-        /// <summary>At 0 the body keeps its angular velocity; otherwise LargestAngularSpeed must be finite.</summary>
-        public double AngularAccelerationLimit, LargestAngularSpeed;
-        public Vector Inertia;
-        UIntPtr hullCount;
-        Native.Hull* hulls;
-        internal void Require(string name) { Native.RequireDefault(structSize, "RigidDefinition", name); }
         internal void SetParts(RigidPart* first, int count) { parts = first; partCount = (UIntPtr)count; }
         internal void SetHulls(Native.Hull* first, int count) { hulls = first; hullCount = (UIntPtr)count; }
-        public static RigidDefinition Default
-        {
-            get
-            {
-                RigidDefinition made;
-                Native.Check(Native.ks_rigid_definition_init(out made, Native.SizeOf<RigidDefinition>()));
-                return made;
-            }
-        }
     }
 }

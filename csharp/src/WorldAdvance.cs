@@ -44,8 +44,7 @@ namespace Kinesphere
         public void Run(double until, double restitution = 1, Respond respond = null, Action<Event> sink = null, int threads = 1,
             double restingSpeed = 0)
         {
-            Native.RunDefinition definition;
-            Native.Check(Native.ks_run_definition_init(out definition, Native.SizeOf<Native.RunDefinition>()));
+            var definition = Native.RunDefinition.Default;
             var caught = new Caught();
             Native.Respond answer = (happened, response, user) => caught.Call(() => *response = respond(*happened).Sized());
             Native.Sink tell = (happened, user) => caught.Call(() => sink(*happened));

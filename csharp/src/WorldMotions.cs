@@ -16,7 +16,7 @@ namespace Kinesphere
         public BodyId[] AddBallistic(State[] states, BodyDefinition like, Vector gravity, out uint motion,
             double[] radii = null, double[] masses = null)
         {
-            var definition = Motion(0);
+            var definition = Motion(Native.MotionKind.Ballistic);
             definition.Gravity = gravity;
             return AddMotion(definition, states, like, null, radii, masses, out motion);
         }
@@ -28,7 +28,7 @@ namespace Kinesphere
         {
             var found = new uint[(int)Arrays.Count(states, "states")];
             numbers = found;
-            return AddMoved(Motion(0), states, like, accelerationLimits, radii, masses,
+            return AddMoved(Motion(Native.MotionKind.Ballistic), states, like, accelerationLimits, radii, masses,
                 (ref Native.MotionDefinition definition, BodyId[] ids) =>
                     Native.ks_world_add_to_motion(handle, motion, ref definition, found, ids));
         }
@@ -38,7 +38,7 @@ namespace Kinesphere
             ulong seed, double[] radii = null, double[] masses = null)
         {
             uint motion;
-            var definition = Motion(1);
+            var definition = Motion(Native.MotionKind.RandomForces);
             definition.Interval = interval;
             definition.Seed = seed;
             return AddMotion(definition, states, like, accelerationLimits, radii, masses, out motion);
@@ -48,7 +48,7 @@ namespace Kinesphere
         public BodyId[] AddSteered(State[] states, BodyDefinition like, double[] accelerationLimits, out uint motion,
             double[] radii = null, double[] masses = null)
         {
-            return AddMotion(Motion(3), states, like, accelerationLimits, radii, masses, out motion);
+            return AddMotion(Motion(Native.MotionKind.Steered), states, like, accelerationLimits, radii, masses, out motion);
         }
 
         /// <summary>Sets the acceleration of a body that AddSteered added, from the current time on.</summary>
@@ -60,7 +60,7 @@ namespace Kinesphere
         public BodyId[] AddFrames(State[] states, BodyDefinition like, double interval, out uint motion,
             double[] radii = null, double[] masses = null, double[] accelerationLimits = null, double positionError = 0)
         {
-            var definition = Motion(2);
+            var definition = Motion(Native.MotionKind.Frames);
             definition.Interval = interval;
             definition.PositionError = positionError;
             return AddMotion(definition, states, like, accelerationLimits, radii, masses, out motion);
@@ -98,10 +98,9 @@ namespace Kinesphere
             return states;
         }
 
-        static Native.MotionDefinition Motion(int kind)
+        static Native.MotionDefinition Motion(Native.MotionKind kind)
         {
-            Native.MotionDefinition definition;
-            Native.Check(Native.ks_motion_definition_init(out definition, Native.SizeOf<Native.MotionDefinition>()));
+            var definition = Native.MotionDefinition.Default;
             definition.Kind = kind;
             return definition;
         }

@@ -37,18 +37,20 @@ class Filter(TypedDict, total=False):
     group: int
 
 class WorldDefinition(TypedDict):
+    # generated from kinesphere.h: WorldDefinition
     box: Optional[Box]
     periodic: str
     wall_filter: Optional[Filter]
     dimensions: int
     contact_tolerance: float
     separation_distance: Optional[float]
-    contacts: ContactEvents
-    allow_overlap: bool
     zeno_interval: float
     start_time: float
+    contacts: ContactEvents
+    allow_overlap: bool
     spread_window_starts: bool
     adopt_observed_limits: bool
+    # end of what is generated
 
 class BodyDefinitions(TypedDict):
     positions: Doubles
@@ -120,6 +122,7 @@ class Event:
     @staticmethod
     def _from_record(record: bytes) -> Event: ...
     def _to_record(self) -> bytes: ...
+    # generated from kinesphere.h: Event
     @property
     def kind(self) -> EventKind: ...
     @property
@@ -138,6 +141,18 @@ class Event:
     def already_touching(self) -> bool: ...
     @property
     def senses(self) -> Senses: ...
+    @property
+    def first_is_static(self) -> bool: ...
+    @property
+    def first_is_zone(self) -> bool: ...
+    @property
+    def first_is_sleeping(self) -> bool: ...
+    @property
+    def second_is_static(self) -> bool: ...
+    @property
+    def second_is_zone(self) -> bool: ...
+    @property
+    def second_is_sleeping(self) -> bool: ...
     @property
     def first_position(self) -> Doubles: ...
     @property
@@ -158,8 +173,6 @@ class Event:
     def position_excess(self) -> float: ...
     @property
     def velocity_excess(self) -> float: ...
-    @property
-    def acceleration_limit(self) -> float: ...
     @property
     def distance(self) -> float: ...
     @property
@@ -183,17 +196,8 @@ class Event:
     @property
     def second_spin_gain(self) -> Doubles: ...
     @property
-    def first_is_static(self) -> bool: ...
-    @property
-    def first_is_zone(self) -> bool: ...
-    @property
-    def first_is_sleeping(self) -> bool: ...
-    @property
-    def second_is_static(self) -> bool: ...
-    @property
-    def second_is_zone(self) -> bool: ...
-    @property
-    def second_is_sleeping(self) -> bool: ...
+    def acceleration_limit(self) -> float: ...
+    # end of what is generated
     def partner_of(self, body: int) -> Optional[BodyId]: ...
     def is_sensed_by(self, body: int) -> bool: ...
     @property
@@ -621,6 +625,7 @@ class DistanceLimits:
     def probed(self) -> bool: ...
 
 class World:
+    # generated from kinesphere.h: World
     def __init__(
         self,
         *,
@@ -630,13 +635,14 @@ class World:
         dimensions: int = 3,
         contact_tolerance: float = 1e-6,
         separation_distance: Optional[float] = None,
-        contacts: ContactEvents = "all",
-        allow_overlap: bool = True,
         zeno_interval: float = 0.0,
         start_time: float = 0.0,
+        contacts: ContactEvents = "all",
+        allow_overlap: bool = True,
         spread_window_starts: bool = False,
         adopt_observed_limits: bool = True,
     ) -> None: ...
+    # end of what is generated
     @property
     def definition(self) -> WorldDefinition: ...
     @property
@@ -973,6 +979,7 @@ Limits = Union[ErrorBound, Array]
 Poll = Callable[[TrackIds, float], Optional[ReportArguments]]
 
 class MonitorDefinition(TypedDict):
+    # generated from kinesphere.h: MonitorDefinition
     classes: list[TrackClass]
     separations: list[SeparationRule]
     dimensions: int
@@ -987,6 +994,7 @@ class MonitorDefinition(TypedDict):
     prediction_margin: float
     prediction_error_part: float
     shard: Shard
+    # end of what is generated
 
 class ReportArguments(TypedDict, total=False):
     ids: Tracks
@@ -1081,20 +1089,15 @@ class MonitorEvent:
     @staticmethod
     def _from_record(record: bytes) -> MonitorEvent: ...
     def _to_record(self) -> bytes: ...
-    @property
-    def time(self) -> float: ...
+    # generated from kinesphere.h: MonitorEvent
     @property
     def kind(self) -> MonitorEventKind: ...
     @property
+    def time(self) -> float: ...
+    @property
     def first(self) -> int: ...
     @property
-    def second(self) -> Optional[int]: ...
-    @property
     def level(self) -> int: ...
-    @property
-    def verdict(self) -> Optional[Verdict]: ...
-    @property
-    def before(self) -> Optional[Verdict]: ...
     @property
     def since(self) -> float: ...
     @property
@@ -1107,6 +1110,13 @@ class MonitorEvent:
     def position_excess(self) -> float: ...
     @property
     def velocity_excess(self) -> float: ...
+    # end of what is generated
+    @property
+    def second(self) -> Optional[int]: ...
+    @property
+    def verdict(self) -> Optional[Verdict]: ...
+    @property
+    def before(self) -> Optional[Verdict]: ...
     def __eq__(self, other: object) -> bool: ...
 
 monitor_event_dtype: np.dtype[np.void]
@@ -1116,8 +1126,11 @@ class MonitorEventIterator(Iterator[MonitorEvent]):
     def __next__(self) -> MonitorEvent: ...
 
 class PairAnswer:
+    # generated from kinesphere.h: PairAnswer
     @property
     def verdict(self) -> Verdict: ...
+    @property
+    def predicted(self) -> bool: ...
     @property
     def since(self) -> float: ...
     @property
@@ -1146,8 +1159,7 @@ class PairAnswer:
     def ask(self) -> int: ...
     @property
     def ask_by(self) -> float: ...
-    @property
-    def predicted(self) -> bool: ...
+    # end of what is generated
 
 class TrackPlace:
     @property
@@ -1188,6 +1200,7 @@ class MonitorCounters:
     def rechecks(self) -> int: ...
 
 class Monitor:
+    # generated from kinesphere.h: Monitor
     def __init__(
         self,
         *,
@@ -1206,6 +1219,7 @@ class Monitor:
         prediction_error_part: float = 0.0,
         shard: Shard = ...,
     ) -> None: ...
+    # end of what is generated
     @property
     def definition(self) -> MonitorDefinition: ...
     @property

@@ -1,36 +1,14 @@
+# Generated from include/kinesphere.h by interface/generate.py: change the header, and run that.
 """What events are about. Members are whole numbers, as in tables of events; their texts are their names."""
 
-from enum import IntEnum
+from .named import Named
 
 
-class _Named(IntEnum):
-    """Comparing a member with a text is a TypeError: it would be False for ever, and events would be overlooked."""
-
-    def __eq__(self, other: object) -> bool:
-        if isinstance(other, str):
-            member = other if other in type(self).__members__ else self.name
-            raise TypeError(
-                f"{type(self).__name__}: compare with {type(self).__name__}.{member}, not with {other!r}"
-            )
-        return int.__eq__(self, other)
-
-    def __ne__(self, other: object) -> bool:
-        return not self == other
-
-    __hash__ = int.__hash__
-
-    def __str__(self) -> str:
-        return self.name
-
-    def __format__(self, specification: str) -> str:
-        return format(self.name, specification)
-
-
-class EventKind(_Named):
-    """Kinds of events, in the order in which events of one instant are delivered."""
+class EventKind(Named):
+    """Kinds of events, in the order of their delivery within one instant."""
 
     bound_violation = 0
-    """A probe answered with a state that contradicts the body's own promise."""
+    """A reported state contradicts the motion limits of its body."""
     contact_begin = 1
     """Two bodies touch: their gap has come down to at most the contact tolerance."""
     contact_end = 2
@@ -40,21 +18,20 @@ class EventKind(_Named):
     wall_end = 4
     """A body that touched a wall is clear of it."""
     zeno_guard = 5
-    """Time would have stopped at a contact deep within its tolerance; it goes on by its least step.
-
-    The two may come to overlap by more than the tolerance. If it comes often, a response does not part its
-    bodies, or a body reaches through a wall.
+    """Time would have stopped at a contact deep within its tolerance; it goes on by its least step. The two
+    may come to overlap by more than the tolerance. If it comes often, a response does not part its bodies, or
+    a body reaches through a wall.
     """
     sensor_enter = 6
     """The gap of two bodies has come down to a sensor distance."""
     sensor_leave = 7
     """The gap of two bodies that were within a sensor distance has grown beyond it."""
     woke = 8
-    """A body that rested is awake again."""
+    """A body that slept is awake again."""
 
 
-class Wall(_Named):
-    """The walls of the box, by the axis and side on which they stand."""
+class Wall(Named):
+    """The walls of the box of a world."""
 
     none = 0
     x_lower = 1
@@ -65,8 +42,8 @@ class Wall(_Named):
     z_upper = 6
 
 
-class Senses(_Named):
-    """Which of the two bodies of a sensor event senses the other."""
+class Senses(Named):
+    """Which bodies of an event sense the other one."""
 
     neither = 0
     first = 1
@@ -74,8 +51,19 @@ class Senses(_Named):
     both = 3
 
 
-class MonitorEventKind(_Named):
-    """Kinds of events of a monitor, in the order in which events of one time come, but for reclassified."""
+class Verdict(Named):
+    """What the reports prove about two tracks and a separation."""
+
+    apart = 0
+    """The two certainly are not within the separation."""
+    undecided = 1
+    """The reports prove neither of the other two."""
+    within = 2
+    """They certainly are within it, or outside of it by at most the tolerance."""
+
+
+class MonitorEventKind(Named):
+    """Kinds of events of a monitor."""
 
     verdict = 0
     """The verdict about two tracks and a separation changes."""
@@ -95,14 +83,3 @@ class MonitorEventKind(_Named):
     """A track was removed, or its latest report has reached the age drop_after."""
     reclassified = 8
     """A report has given the track another class; it starts anew. Comes before all others of its time."""
-
-
-class Verdict(_Named):
-    """What the reports so far prove about two tracks and a separation."""
-
-    apart = 0
-    """The two certainly are not within the separation."""
-    undecided = 1
-    """The reports prove neither of the other two."""
-    within = 2
-    """They certainly are within it, or outside of it by at most the tolerance."""

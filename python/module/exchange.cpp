@@ -408,4 +408,18 @@ py::object numpy(const char* name) {
   return module.attr(name);
 }
 
+namespace {
+/// Returns a member of one of the package's enumerations.
+template <class Kind>
+py::object member(const char* enumeration, Kind kind) {
+  return package_attribute("kinesphere.kinds", enumeration)(static_cast<int>(kind));
+}
+}  // namespace
+
+py::object object_of_field(EventKind kind) { return member("EventKind", kind); }
+py::object object_of_field(Wall wall) { return wall == Wall::none ? py::none() : member("Wall", wall); }
+py::object object_of_field(Senses senses) { return member("Senses", senses); }
+py::object object_of_field(MonitorEventKind kind) { return member("MonitorEventKind", kind); }
+py::object object_of_field(Verdict verdict) { return member("Verdict", verdict); }
+
 }  // namespace kinesphere::python

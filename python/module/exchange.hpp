@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "kinesphere/body.hpp"
+#include "kinesphere/event.hpp"
+#include "kinesphere/monitor/monitor_event.hpp"
 #include "kinesphere/result.hpp"
 
 namespace kinesphere::python {
@@ -151,6 +153,16 @@ py::object package_attribute(const char* module, const char* name);
 
 /// Returns "Name(part=..., part=...)", with attributes of these names.
 std::string text_of_parts(const py::object& self, std::span<const char* const> parts);
+// Fields of events and answers as objects of Python.
+inline py::object object_of_field(BodyId body) { return object_of(body); }
+inline py::object object_of_field(const Vec3& vector) { return array_of(vector); }
+py::object object_of_field(EventKind kind);
+/// None for Wall::none.
+py::object object_of_field(Wall wall);
+py::object object_of_field(Senses senses);
+py::object object_of_field(MonitorEventKind kind);
+py::object object_of_field(Verdict verdict);
+
 /// Returns text_of_parts() as a function for __repr__.
 template <class... Names>
 auto repr_of_parts(Names... names) {

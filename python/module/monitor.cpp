@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "definitions.hpp"
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "kinesphere/limits.hpp"
@@ -17,33 +18,6 @@
 
 namespace kinesphere::python {
 namespace {
-
-constexpr double never = std::numeric_limits<double>::infinity();
-
-std::shared_ptr<MonitorHandle> create_monitor(const py::object& classes, const py::object& separations,
-                                              int dimensions, std::optional<double> start_time,
-                                              double tolerance, double time_resolution, double window,
-                                              double stale_after, double drop_after, double prediction_hold,
-                                              double prediction_confirmation, double prediction_margin,
-                                              double prediction_error_part, const Shard& shard) {
-  return std::make_shared<MonitorHandle>(
-      Monitor::create({.dimensions = dimensions,
-                       .start_time = start_time,
-                       .classes = list_of<TrackClass>(classes, {"Monitor", "classes"}, "a TrackClass"),
-                       .separations = list_of<SeparationRule>(separations, {"Monitor", "separations"},
-                                                              "a SeparationRule"),
-                       .tolerance = tolerance,
-                       .time_resolution = time_resolution,
-                       .window = window,
-                       .stale_after = stale_after,
-                       .drop_after = drop_after,
-                       .prediction_hold = prediction_hold,
-                       .prediction_confirmation = prediction_confirmation,
-                       .prediction_margin = prediction_margin,
-                       .prediction_error_part = prediction_error_part,
-                       .shard = shard})
-          .value());
-}
 
 /// A Python function that is polled for reports, or none. Must be made and destroyed under the GIL, and is
 /// called without it.
@@ -373,28 +347,10 @@ event. With look-ahead times, closest approaches are also predicted.
 Tracks have the caller's ids: whole numbers from 0 to 2^64 - 1. No certain verdict is ever wrong, as long as
 tracks keep the limits of their classes, and of any three successive reports of a track at most one has larger
 errors than it states. One thread at a time may use a monitor; another one is refused with StateError.)");
+  bind_monitor_arguments(monitor, [](const MonitorDefinition& definition) {
+    return std::make_shared<MonitorHandle>(Monitor::create(definition).value());
+  });
   monitor
-      .def(py::init(&create_monitor), py::kw_only(), py::arg("classes"), py::arg("separations"),
-           py::arg("dimensions") = 3, py::arg("start_time") = py::none(), py::arg("tolerance") = 1e-3,
-           py::arg("time_resolution") = 1e-3, py::arg("window") = 1.0, py::arg("stale_after") = never,
-           py::arg("drop_after") = never, py::arg("prediction_hold") = 0.0,
-           py::arg("prediction_confirmation") = 0.0, py::arg("prediction_margin") = 0.0,
-           py::arg("prediction_error_part") = 0.0, py::arg("shard") = Shard{},
-           R"(classes: a list of TrackClass; report(track_classes=...) has their numbers.
-separations: a list of SeparationRule. Pairs of classes that none names are not watched.
-dimensions: 3, or 2, where z is ignored.
-start_time (time): without it the clock starts at the first report, or the first time that run() goes to. Give
-it where timestamps may be ahead of your clock.
-tolerance (length, > 0): a pair that is `within` may be this far outside of the separation. No coordinate may
-exceed 2^41 tolerances. With a poll, at least twice the position errors of both tracks.
-time_resolution (time, > 0): a verdict that time alone decides becomes certain at most this late.
-window (time, > 0): about the time between two reports of a track; for speed, and the horizon of needed().
-stale_after, drop_after (time, > 0): ages of a track's latest report at which it becomes stale, and is dropped.
-prediction_hold (time, >= 0): a prediction ends once it has not held for this long.
-prediction_confirmation (time, >= 0): it begins once it has held for this long without a break.
-prediction_margin (in [0, 1]): one that has begun holds at a separation that is larger by this part.
-prediction_error_part (in [0, 1]): separations are larger for predictions by this part of both position errors.
-shard: the pairs that this monitor watches. Raises ValueError (InvalidValue) that names the argument.)")
       .def_property_readonly(
           "definition",
           [](MonitorHandle& handle) {

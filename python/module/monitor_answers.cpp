@@ -3,94 +3,23 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <string>
 
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "monitor.hpp"
 #include "monitor_reports.hpp"
+#include "records.hpp"
 
 namespace kinesphere::python {
 namespace {
 
-/// A row of the answers about many pairs.
-struct PairAnswerRecord {
-  TrackId first;
-  TrackId second;
-  std::uint8_t verdict;
-  bool predicted;
-  double since;
-  double until;
-  double lower;
-  double upper;
-  double closest_distance;
-  double closest_time;
-  double closest_horizontal;
-  double closest_vertical;
-  double relative_speed;
-  double likely_time;
-  double inevitable_by;
-  double avoidable_until;
-  TrackId ask;
-  double ask_by;
-};
-
-constexpr Field pair_answer_fields[] = {
-    {"first", "u8", offsetof(PairAnswerRecord, first)},
-    {"second", "u8", offsetof(PairAnswerRecord, second)},
-    {"verdict", "u1", offsetof(PairAnswerRecord, verdict)},
-    {"predicted", "?", offsetof(PairAnswerRecord, predicted)},
-    {"since", "f8", offsetof(PairAnswerRecord, since)},
-    {"until", "f8", offsetof(PairAnswerRecord, until)},
-    {"lower", "f8", offsetof(PairAnswerRecord, lower)},
-    {"upper", "f8", offsetof(PairAnswerRecord, upper)},
-    {"closest_distance", "f8", offsetof(PairAnswerRecord, closest_distance)},
-    {"closest_time", "f8", offsetof(PairAnswerRecord, closest_time)},
-    {"closest_horizontal", "f8", offsetof(PairAnswerRecord, closest_horizontal)},
-    {"closest_vertical", "f8", offsetof(PairAnswerRecord, closest_vertical)},
-    {"relative_speed", "f8", offsetof(PairAnswerRecord, relative_speed)},
-    {"likely_time", "f8", offsetof(PairAnswerRecord, likely_time)},
-    {"inevitable_by", "f8", offsetof(PairAnswerRecord, inevitable_by)},
-    {"avoidable_until", "f8", offsetof(PairAnswerRecord, avoidable_until)},
-    {"ask", "u8", offsetof(PairAnswerRecord, ask)},
-    {"ask_by", "f8", offsetof(PairAnswerRecord, ask_by)},
-};
-
-struct OpenPairRecord {
-  TrackId first;
-  TrackId second;
-  std::uint32_t level;
-  std::uint8_t verdict;
-  double since;
-};
-
-constexpr Field open_pair_fields[] = {
-    {"first", "u8", offsetof(OpenPairRecord, first)}, {"second", "u8", offsetof(OpenPairRecord, second)},
-    {"level", "u4", offsetof(OpenPairRecord, level)}, {"verdict", "u1", offsetof(OpenPairRecord, verdict)},
-    {"since", "f8", offsetof(OpenPairRecord, since)},
-};
-
-constexpr Field predicted_pair_fields[] = {
-    {"first", "u8", offsetof(PredictedPair, first)},
-    {"second", "u8", offsetof(PredictedPair, second)},
-    {"level", "u4", offsetof(PredictedPair, level)},
-    {"since", "f8", offsetof(PredictedPair, since)},
-    {"likely_time", "f8", offsetof(PredictedPair, likely_time)},
-    {"closest_time", "f8", offsetof(PredictedPair, closest_time)},
-    {"closest_distance", "f8", offsetof(PredictedPair, closest_distance)},
-};
-
-constexpr Field report_request_fields[] = {
-    {"track", "u8", offsetof(ReportRequest, track)},
-    {"by", "f8", offsetof(ReportRequest, by)},
-    {"other", "u8", offsetof(ReportRequest, other)},
-};
-
 /// Returns a structured array with a row for each item.
-template <class Record, class Item, class Convert>
-py::object rows_as_table(std::span<const Field> fields, const std::vector<Item>& items, Convert convert) {
+template <class Record, class Item>
+py::object rows_as_table(std::span<const Field> fields, const std::vector<Item>& items) {
   NewArray table({items.size()}, row_type(fields, sizeof(Record)), sizeof(Record));
-  for (std::size_t k = 0; k < items.size(); ++k) table.data<Record>()[k] = convert(items[k]);
+  for (std::size_t k = 0; k < items.size(); ++k) table.data<Record>()[k] = record_of(items[k]);
   return table.take();
 }
 
@@ -105,16 +34,16 @@ py::object answer_pairs(const MonitorHandle& handle, const TrackIds& first, cons
     for (std::size_t row = 0; row < first.ids.size(); ++row) {
       const auto found = handle.monitor.answer(first.ids[row], second.ids[row], level);
       if (!found) throw_of_row(found.error(), "answer", row, false);
-      const PairAnswer& answer = *found;
-      records.push_back({first.ids[row], second.ids[row], static_cast<std::uint8_t>(answer.verdict),
-                         answer.predicted, answer.since, answer.until, answer.lower, answer.upper,
-                         answer.closest_distance, answer.closest_time, answer.closest_horizontal,
-                         answer.closest_vertical, answer.relative_speed, answer.likely_time,
-                         answer.inevitable_by, answer.avoidable_until, answer.ask, answer.ask_by});
+      PairAnswerRecord& record = records.emplace_back(record_of(*found));
+      record.first = first.ids[row];
+      record.second = second.ids[row];
     }
   }
-  return rows_as_table<PairAnswerRecord>(pair_answer_fields, records,
-                                         [](const PairAnswerRecord& record) { return record; });
+  NewArray table({records.size()}, row_type(pair_answer_fields, sizeof(PairAnswerRecord)),
+                 sizeof(PairAnswerRecord));
+  if (!records.empty())
+    std::memcpy(table.data<PairAnswerRecord>(), records.data(), records.size() * sizeof(PairAnswerRecord));
+  return table.take();
 }
 
 py::object answer_of_monitor(MonitorHandle& handle, const py::object& first, const py::object& second,
@@ -128,8 +57,7 @@ py::object answer_of_monitor(MonitorHandle& handle, const py::object& first, con
 py::object needed_reports(MonitorHandle& handle, double until) {
   const auto turn = handle.take("needed");
   if (std::isnan(until)) refuse({"needed", "until"}, "must be a number", "is nan", ErrorCode::not_finite);
-  return rows_as_table<ReportRequest>(report_request_fields, handle.monitor.needed(until),
-                                      [](const ReportRequest& request) { return request; });
+  return rows_as_table<ReportRequestRecord>(report_request_fields, handle.monitor.needed(until));
 }
 
 std::string short_text(double number) { return py::str("{:.6g}").format(number).cast<std::string>(); }
@@ -143,40 +71,11 @@ std::string answer_text(const PairAnswer& answer) {
 
 void bind_pair_answer(py::module_& module) {
   module.attr("pair_answer_dtype") = row_type(pair_answer_fields, sizeof(PairAnswerRecord));
-  py::class_<PairAnswer>(module, "PairAnswer",
-                         "The verdict about two tracks and a separation now, and a forecast; a copy.")
-      .def_property_readonly("verdict", [](const PairAnswer& answer) { return object_of(answer.verdict); })
-      .def_readonly("since", &PairAnswer::since, "-inf for a pair that is apart at all levels.")
-      .def_readonly(
-          "until", &PairAnswer::until,
-          "Until when a certain verdict is true, whatever is reported; before that an undecided one "
-          "does not change by the passing of time alone.")
-      .def_readonly("lower", &PairAnswer::lower,
-                    "The distance now is at least this (length); for a cylinder, that in the plane.")
-      .def_readonly("upper", &PairAnswer::upper, "The distance now is at most this.")
-      .def_readonly(
-          "closest_distance", &PairAnswer::closest_distance,
-          "Of the closest approach if both go straight on from now: an estimate. For a cylinder, in "
-          "the plane.")
-      .def_readonly("closest_time", &PairAnswer::closest_time)
-      .def_readonly("closest_horizontal", &PairAnswer::closest_horizontal,
-                    "The horizontal part of the distance at that time.")
-      .def_readonly("closest_vertical", &PairAnswer::closest_vertical)
-      .def_readonly("relative_speed", &PairAnswer::relative_speed, "Now (length / time); an estimate.")
-      .def_readonly("likely_time", &PairAnswer::likely_time,
-                    "When they first are within the separation if both go straight on; inf if never.")
-      .def_readonly("inevitable_by", &PairAnswer::inevitable_by,
-                    "They certainly are within the separation at some time up to this one, whatever both do "
-                    "within their limits; inf if nothing certain is in sight.")
-      .def_readonly("avoidable_until", &PairAnswer::avoidable_until,
-                    "If both go straight on until then, no accelerations keep them out of the separation "
-                    "after it: an estimate. inf if straight paths do not meet.")
-      .def_readonly("ask", &PairAnswer::ask, "The track whose report would tighten the bounds most.")
-      .def_readonly("ask_by", &PairAnswer::ask_by,
-                    "The time by which that report is needed for the verdict to stay certain.")
-      .def_readonly("predicted", &PairAnswer::predicted,
-                    "True from the event `predicted` to `prediction_ended`.")
-      .def("__repr__", answer_text);
+  py::class_<PairAnswer> bound(module, "PairAnswer",
+                               "The verdict about two tracks and a separation now, and a forecast; a copy.");
+  each_pair_answer_property(
+      [&](const char* name, auto get, const char* doc) { bound.def_property_readonly(name, get, doc); });
+  bound.def("__repr__", answer_text);
 }
 
 void bind_views_of_monitor(py::module_& module) {
@@ -266,20 +165,15 @@ a recheck of each pair; O(near pairs) where the latest reports alone leave open 
       .def("open_pairs",
            reading_monitor("open_pairs",
                            [](const Monitor& now) {
-                             return rows_as_table<OpenPairRecord>(
-                                 open_pair_fields, now.open_pairs(), [](const OpenPair& pair) {
-                                   return OpenPairRecord{pair.first, pair.second, pair.level,
-                                                         static_cast<std::uint8_t>(pair.verdict), pair.since};
-                                 });
+                             return rows_as_table<OpenPairRecord>(open_pair_fields, now.open_pairs());
                            }),
            "The pairs that are not certainly apart: a structured array with first, second, level, verdict "
            "(a number of Verdict) and since, in the order of ids and levels.")
       .def("predicted_pairs",
            reading_monitor("predicted_pairs",
                            [](const Monitor& now) {
-                             return rows_as_table<PredictedPair>(
-                                 predicted_pair_fields, now.predicted_pairs(),
-                                 [](const PredictedPair& pair) { return pair; });
+                             return rows_as_table<PredictedPairRecord>(predicted_pair_fields,
+                                                                       now.predicted_pairs());
                            }),
            "The pairs that are predicted to come within a separation: a structured array with first, second, "
            "level, since, likely_time, closest_time and closest_distance, in the order of ids and levels.")

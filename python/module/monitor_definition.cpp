@@ -238,23 +238,13 @@ would.)")
 
 }  // namespace
 
-py::dict arguments_of(const MonitorDefinition& definition) {
-  py::dict arguments;
-  arguments["classes"] = py::cast(definition.classes);
-  arguments["separations"] = py::cast(definition.separations);
-  arguments["dimensions"] = definition.dimensions;
-  arguments["start_time"] = py::cast(definition.start_time);
-  arguments["tolerance"] = definition.tolerance;
-  arguments["time_resolution"] = definition.time_resolution;
-  arguments["window"] = definition.window;
-  arguments["stale_after"] = definition.stale_after;
-  arguments["drop_after"] = definition.drop_after;
-  arguments["prediction_hold"] = definition.prediction_hold;
-  arguments["prediction_confirmation"] = definition.prediction_confirmation;
-  arguments["prediction_margin"] = definition.prediction_margin;
-  arguments["prediction_error_part"] = definition.prediction_error_part;
-  arguments["shard"] = py::cast(definition.shard);
-  return arguments;
+void read_argument(const py::object& given, const Argument& argument, const MonitorDefinition& /*definition*/,
+                   std::vector<TrackClass>& classes) {
+  classes = list_of<TrackClass>(given, argument, "a TrackClass");
+}
+void read_argument(const py::object& given, const Argument& argument, const MonitorDefinition& /*definition*/,
+                   std::vector<SeparationRule>& rules) {
+  rules = list_of<SeparationRule>(given, argument, "a SeparationRule");
 }
 
 void bind_monitor_definition(py::module_& module) {

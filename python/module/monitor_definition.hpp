@@ -30,9 +30,6 @@ std::vector<Bound> list_of(const py::object& given, const Argument& argument, co
   return list;
 }
 
-/// Returns the arguments of Monitor() for this definition.
-py::dict arguments_of(const MonitorDefinition& definition);
-
 void bind_monitor_definition(py::module_& module);
 
 }  // namespace kinesphere::python

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "definitions.hpp"
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "motions.hpp"

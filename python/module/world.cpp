@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "definitions.hpp"
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "shapes.hpp"
@@ -10,16 +11,7 @@
 namespace kinesphere::python {
 namespace {
 
-std::string text_of(const Axes& axes) {
-  return std::string(axes.x ? "x" : "") + (axes.y ? "y" : "") + (axes.z ? "z" : "");
-}
-
-const char* name_of(ContactEvents contacts) {
-  return contacts == ContactEvents::all ? "all" : wants_ends(contacts) ? "begin_and_end" : "impacts";
-}
-
-std::optional<Filter> wall_filter_of(const py::object& given) {
-  constexpr Argument argument{"World", "wall_filter"};
+std::optional<Filter> filter_of(const py::object& given, const Argument& argument) {
   if (given.is_none()) return std::nullopt;
   const auto wrong = [&] {
     return py::type_error(
@@ -42,38 +34,6 @@ std::optional<Filter> wall_filter_of(const py::object& given) {
       throw wrong();
     }
   return filter;
-}
-
-py::dict dict_of(const Filter& filter) {
-  return py::dict(py::arg("category") = filter.category, py::arg("mask") = filter.mask,
-                  py::arg("group") = filter.group);
-}
-
-std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::object& periodic,
-                                          const py::object& wall_filter, int dimensions,
-                                          double contact_tolerance, const py::object& separation_distance,
-                                          const std::string& contacts, bool allow_overlap,
-                                          double zeno_interval, double start_time, bool spread_window_starts,
-                                          bool adopt_observed_limits) {
-  WorldDefinition definition;
-  definition.box = box_of(box, {"World", "box"}, dimensions == 2);
-  definition.periodic = axes_of(periodic, {"World", "periodic"}, dimensions == 2);
-  definition.wall_filter = wall_filter_of(wall_filter);
-  definition.dimensions = dimensions;
-  definition.contact_tolerance = contact_tolerance;
-  if (!separation_distance.is_none()) {
-    definition.separation_distance = separation_distance.cast<double>();
-    // NaN stands for the default in the library.
-    if (std::isnan(definition.separation_distance))
-      refuse({"World", "separation_distance"}, "must be a number", "is nan", ErrorCode::not_finite);
-  }
-  definition.contacts = contact_events_of(contacts, {"World", "contacts"});
-  definition.allow_overlap = allow_overlap;
-  definition.zeno_interval = zeno_interval;
-  definition.start_time = start_time;
-  definition.spread_window_starts = spread_window_starts;
-  definition.adopt_observed_limits = adopt_observed_limits;
-  return std::make_shared<WorldHandle>(World::create(definition).value());
 }
 
 std::shared_ptr<WorldHandle> clone(WorldHandle& handle) {
@@ -127,24 +87,39 @@ Axes axes_of(const py::object& given, const Argument& argument, bool plane) {
   return {has('x'), has('y'), has('z')};
 }
 
-py::dict arguments_of(const WorldDefinition& definition) {
-  py::dict arguments;
-  arguments["box"] = definition.box ? py::cast(*definition.box) : py::none();
-  arguments["periodic"] = text_of(definition.periodic);
-  arguments["wall_filter"] =
-      definition.wall_filter ? py::object(dict_of(*definition.wall_filter)) : py::none();
-  arguments["dimensions"] = definition.dimensions;
-  arguments["contact_tolerance"] = definition.contact_tolerance;
-  arguments["separation_distance"] = std::isnan(definition.separation_distance)
-                                         ? py::none()
-                                         : py::object(py::float_(definition.separation_distance));
-  arguments["contacts"] = name_of(definition.contacts);
-  arguments["allow_overlap"] = definition.allow_overlap;
-  arguments["zeno_interval"] = definition.zeno_interval;
-  arguments["start_time"] = definition.start_time;
-  arguments["spread_window_starts"] = definition.spread_window_starts;
-  arguments["adopt_observed_limits"] = definition.adopt_observed_limits;
-  return arguments;
+void read_argument(const py::object& given, const Argument& argument, const WorldDefinition& definition,
+                   std::optional<Box>& box) {
+  box = box_of(given, argument, definition.dimensions == 2);
+}
+void read_argument(const py::object& given, const Argument& argument, const WorldDefinition& definition,
+                   Axes& axes) {
+  axes = axes_of(given, argument, definition.dimensions == 2);
+}
+void read_argument(const py::object& given, const Argument& argument, const WorldDefinition& /*definition*/,
+                   std::optional<Filter>& filter) {
+  filter = filter_of(given, argument);
+}
+void read_argument(const std::string& given, const Argument& argument, const WorldDefinition& /*definition*/,
+                   ContactEvents& contacts) {
+  contacts = contact_events_of(given, argument);
+}
+void read_argument(const py::object& given, const Argument& argument, const WorldDefinition& /*definition*/,
+                   double& number) {
+  if (given.is_none()) return;
+  number = given.cast<double>();
+  if (std::isnan(number)) refuse(argument, "must be a number", "is nan", ErrorCode::not_finite);
+}
+
+py::object argument_of(const Axes& axes) {
+  return py::str(std::string(axes.x ? "x" : "") + (axes.y ? "y" : "") + (axes.z ? "z" : ""));
+}
+py::object argument_of(ContactEvents contacts) {
+  return py::str(contacts == ContactEvents::all ? "all" : wants_ends(contacts) ? "begin_and_end" : "impacts");
+}
+py::object argument_of(const std::optional<Filter>& filter) {
+  if (!filter) return py::none();
+  return py::dict(py::arg("category") = filter->category, py::arg("mask") = filter->mask,
+                  py::arg("group") = filter->group);
 }
 
 std::shared_ptr<py::object> kept_by_engine(const py::object& function) {
@@ -197,33 +172,10 @@ must be consistent.
 
 Every call checks what it is handed, and one that raises has changed nothing unless it says so. One thread
 at a time may use a world; another one is refused with StateError.)");
+  bind_world_arguments(world, [](const WorldDefinition& definition) {
+    return std::make_shared<WorldHandle>(World::create(definition).value());
+  });
   world
-      .def(py::init(&create_world), py::kw_only(), py::arg("box") = py::none(), py::arg("periodic") = false,
-           py::arg("wall_filter") = py::none(), py::arg("dimensions") = 3,
-           py::arg("contact_tolerance") = 1e-6, py::arg("separation_distance") = py::none(),
-           py::arg("contacts") = "all", py::arg("allow_overlap") = true, py::arg("zeno_interval") = 0.0,
-           py::arg("start_time") = 0.0, py::arg("spread_window_starts") = false,
-           py::arg("adopt_observed_limits") = true,
-           R"(box: walls, a Box or a pair of corners; without one the world is unbounded.
-periodic: True, or axes such as "xy", on which the box repeats instead of having walls.
-wall_filter: the filter of all walls, a dict with category, mask and group or some of these (set_filter());
-they meet a body as another body with this filter would. Without one they meet every body.
-dimensions: 3, or 2 for discs in the plane z = 0; corners may then have two numbers, and True means "xy".
-contact_tolerance (length, > 0): a contact begins when the gap is at most this, and no gap falls below minus
-this unreported.
-separation_distance (length, > contact_tolerance; default 4 of it): a contact ends when the gap has grown to
-this.
-contacts: which contact events the world reports. "all": a begin and an end for each contact, and a begin for
-each further approach in between (event.already_touching). "impacts", for what only bounces: a begin for each
-approach, and no ends. "begin_and_end", for contacts that are watched: one begin and one end,
-and the first approach if the contact began without one or a response has parted the two.
-allow_overlap: when False, add() refuses a body that certainly overlaps another or a wall.
-zeno_interval (time, >= 0): contacts of a body that follow each other sooner are marked as repeated, and
-bounce() takes no energy from those; otherwise a ball that comes to rest would bounce infinitely often in a
-finite time.
-spread_window_starts: accepted, without effect.
-adopt_observed_limits: a report that breaks the promise of its body raises the body's acceleration_limit to
-what explains the report, so that a body whose gravity was forgotten still meets what it falls on. Raises ValueError (InvalidValue) that names the argument.)")
       .def_property_readonly(
           "definition",
           reading("definition", [](const World& made) { return arguments_of(made.definition()); }),

@@ -84,8 +84,6 @@ using WorldClass = py::class_<WorldHandle, std::shared_ptr<WorldHandle>>;
 
 /// Reads True for all axes, or some of the letters "xyz".
 Axes axes_of(const py::object& given, const Argument& argument, bool plane);
-/// Returns the arguments of World() for this definition.
-py::dict arguments_of(const WorldDefinition& definition);
 /// Restores a world from these bytes.
 std::shared_ptr<WorldHandle> restored(const py::object& snapshot, const py::object& pair_filter);
 

@@ -1,42 +1,11 @@
 //! Certified answers and queries at a world's current time.
 use crate::error::{filled, Guarded, Result};
-use crate::events::Wall;
 use crate::geometry::{BodyId, Box3, State, Vec3};
+use crate::records::{Hit, Prediction};
 use crate::sys;
 use crate::world::{probe_of, World};
 use std::os::raw::c_void;
 use std::ptr;
-
-/// When a contact or an approach may happen first: certainly not before `time`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Prediction {
-    pub time: f64,
-    pub partner: Option<BodyId>,
-    pub wall: Option<Wall>,
-    /// The contact exists, or the partner certainly is within the distance.
-    pub happens: bool,
-}
-
-impl Prediction {
-    fn of(raw: sys::ks_prediction) -> Prediction {
-        Prediction {
-            time: raw.time,
-            partner: raw.partner.some(),
-            wall: Wall::of(raw.wall),
-            happens: raw.happens != 0,
-        }
-    }
-}
-
-/// A body that a query found, at a distance between `lower` and `upper` (both 0 for overlaps).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    pub body: BodyId,
-    /// False: possibly.
-    pub certain: bool,
-    pub lower: f64,
-    pub upper: f64,
-}
 
 /// What a world answers: from what it knows, or, with a probe ([`World::answers_with`]), as well as fresh reports allow.
 pub struct Answers<'a> {
@@ -170,7 +139,7 @@ impl Answers<'_> {
         let mut raw = sys::ks_prediction::default();
         let status = self.ask(|world, probe, user| call(world, probe, user, &mut raw));
         self.world.check(status)?;
-        Ok(Prediction::of(raw))
+        Ok(Prediction::of(&raw))
     }
     fn find(
         &mut self,
@@ -189,12 +158,6 @@ impl Answers<'_> {
             world.resume();
             status
         })?;
-        let of = |hit: &sys::ks_hit| Hit {
-            body: hit.body,
-            certain: hit.certain != 0,
-            lower: hit.lower,
-            upper: hit.upper,
-        };
-        Ok(found.iter().map(of).collect())
+        Ok(found.iter().map(Hit::of).collect())
     }
 }

@@ -27,6 +27,7 @@
 //! The crate is a safe interface to the C library `kinesphere-c`; `kinesphere.h` and the C++ headers explain units,
 //! ranges, guarantees and costs. Wrong input is an [`Error`]. A panic in a closure passes through the call that
 //! called it; the world can then go on, as after an error.
+#[rustfmt::skip]
 pub mod sys;
 
 mod answers;
@@ -37,23 +38,19 @@ mod geometry;
 mod monitor;
 mod profiling;
 mod recording;
+#[rustfmt::skip]
+mod records;
 mod world;
 
-pub use answers::{Answers, Hit, Prediction};
-pub use bodies::{
-    BodyDefinition, BodyView, Contacts, Filter, MotionLimits, RigidDefinition, StaticDefinition,
-};
+pub use answers::Answers;
+pub use bodies::{RigidDefinition, StaticDefinition};
 pub use error::{Error, Result};
-pub use events::{BodyAction, Event, EventHash, EventKind, Response, Wall};
+pub use events::{EventHash, Response};
 pub use geometry::{BodyId, Box3, Mesh, Quaternion, RigidHull, RigidPart, Rotation, Shape, State, Vec3};
-pub use monitor::{
-    ErrorBound, Monitor, MonitorDefinition, MonitorEvent, MonitorEventKind, OpenPair, PairAnswer, Plan,
-    PredictedPair, ReportRequest, Separation, SeparationRule, Shard, TrackClass, TrackPlace, TrackReport,
-    Verdict,
-};
-pub use profiling::{BusyBody, ProbeReason, Timings};
+pub use monitor::{ErrorBound, Monitor, Separation, SeparationRule};
 pub use recording::Replay;
-pub use world::{Motion, Run, World, WorldDefinition};
+pub use records::*;
+pub use world::{Motion, Run, World};
 
 /// Returns the version of the library, such as "0.3.0".
 pub fn version() -> &'static str {

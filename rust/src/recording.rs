@@ -1,8 +1,8 @@
 //! Recordings of worlds, and their replays.
 use crate::error::{check, filled, Result};
-use crate::events::Event;
+use crate::records::Event;
 use crate::sys;
-use crate::world::{new_event, World};
+use crate::world::World;
 use std::ptr;
 
 impl World {
@@ -43,9 +43,9 @@ impl Replay {
     /// Repeats everything up to the end of the next recorded advance, or of the recording, and returns what that
     /// advance returned. The error "diverged" names the step that differs.
     pub fn advance(&mut self) -> Result<Option<Event>> {
-        let mut event = new_event();
+        let mut event = sys::ks_event::new();
         check(unsafe { sys::ks_replay_advance(self.handle, &mut event) })?;
-        Ok(Event::of(event))
+        Ok(Event::of(&event))
     }
     /// True if no step is left and the world has ended as the recorded one did, to the last bit.
     pub fn finished(&self) -> bool {

@@ -1,86 +1,15 @@
 //! Worlds.
-use crate::bodies::{
-    BodyDefinition, BodyView, Contacts, Filter, MotionLimits, RigidDefinition, StaticDefinition,
-};
+use crate::bodies::{RigidDefinition, StaticDefinition};
 use crate::error::{check, filled, Guarded, Result};
-use crate::events::{BodyAction, Event, Response};
-use crate::geometry::{BodyId, Box3, Mesh, Rotation, Shape, State, Vec3};
+use crate::events::Response;
+use crate::geometry::{BodyId, Mesh, Rotation, Shape, State, Vec3};
+use crate::records::{BodyAction, BodyDefinition, BodyView, Event, Filter, MotionLimits, WorldDefinition};
 use crate::sys;
 use std::mem::size_of;
 use std::os::raw::c_void;
 use std::ptr;
 use std::slice;
 use std::sync::Arc;
-
-/// Parameters of a world (`WorldDefinition` in C++).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WorldDefinition {
-    /// The sides are walls, or repeat.
-    pub bounds: Option<Box3>,
-    /// Axes on which space repeats, without walls.
-    pub periodic: [bool; 3],
-    /// 2 or 3
-    pub dimensions: i32,
-    /// > 0 (length)
-    pub contact_tolerance: f64,
-    /// > contact_tolerance (length); NaN: four tolerances
-    pub separation_distance: f64,
-    pub contacts: Contacts,
-    pub allow_overlap: bool,
-    /// >= 0 (time)
-    pub zeno_interval: f64,
-    pub start_time: f64,
-    /// For games: frames of equal length cost about the same, and more in total. Has no effect in periodic space.
-    pub spread_window_starts: bool,
-    /// A report that breaks the promise of its body raises the body's acceleration limit to what explains the report.
-    pub adopt_observed_limits: bool,
-    /// The filter of all walls; without one they meet every body.
-    pub wall_filter: Option<Filter>,
-}
-
-impl Default for WorldDefinition {
-    fn default() -> WorldDefinition {
-        let mut raw = sys::ks_world_definition::default();
-        unsafe { sys::ks_world_definition_init(&mut raw, size_of::<sys::ks_world_definition>() as u32) };
-        WorldDefinition {
-            bounds: None,
-            periodic: [false; 3],
-            dimensions: raw.dimensions,
-            contact_tolerance: raw.contact_tolerance,
-            separation_distance: raw.separation_distance,
-            contacts: Contacts::of(raw.contacts).unwrap_or(Contacts::All),
-            allow_overlap: raw.allow_overlap != 0,
-            zeno_interval: raw.zeno_interval,
-            start_time: raw.start_time,
-            spread_window_starts: raw.spread_window_starts != 0,
-            adopt_observed_limits: raw.adopt_observed_limits != 0,
-            wall_filter: None,
-        }
-    }
-}
-
-impl WorldDefinition {
-    fn raw(&self) -> sys::ks_world_definition {
-        sys::ks_world_definition {
-            struct_size: size_of::<sys::ks_world_definition>() as u32,
-            dimensions: self.dimensions,
-            has_box: self.bounds.is_some() as i32,
-            periodic: (0..3).map(|axis| (self.periodic[axis] as u32) << axis).sum(),
-            box_: self.bounds.unwrap_or_default(),
-            contact_tolerance: self.contact_tolerance,
-            separation_distance: self.separation_distance,
-            zeno_interval: self.zeno_interval,
-            start_time: self.start_time,
-            contacts: self.contacts as i32,
-            allow_overlap: self.allow_overlap as i32,
-            spread_window_starts: self.spread_window_starts as i32,
-            has_wall_filter: self.wall_filter.is_some() as i32,
-            wall_filter: self.wall_filter.unwrap_or_default().raw(),
-            adopt_observed_limits: self.adopt_observed_limits as i32,
-            reserved: 0,
-        }
-    }
-}
 
 /// Bodies that the library moves: states at the world's current time, and what moves them.
 #[derive(Clone, Copy, Debug)]
@@ -108,7 +37,7 @@ impl Motion<'_> {
     ) -> sys::ks_motion_definition {
         let mut raw = sys::ks_motion_definition {
             struct_size: size_of::<sys::ks_motion_definition>() as u32,
-            kind: 0,
+            kind: sys::KS_MOTION_BALLISTIC,
             count: states.len(),
             states: states.as_ptr(),
             radii: optional(radii, states),
@@ -124,18 +53,18 @@ impl Motion<'_> {
             Motion::Ballistic { gravity } => raw.gravity = gravity,
             Motion::RandomForces { acceleration_limits, interval, seed } => {
                 assert_eq!(acceleration_limits.len(), states.len(), "one limit for each state");
-                raw.kind = 1;
+                raw.kind = sys::KS_MOTION_RANDOM_FORCES;
                 raw.acceleration_limits = acceleration_limits.as_ptr();
                 raw.interval = interval;
                 raw.seed = seed;
             }
             Motion::Steered { acceleration_limits } => {
                 assert_eq!(acceleration_limits.len(), states.len(), "one limit for each state");
-                raw.kind = 3;
+                raw.kind = sys::KS_MOTION_STEERED;
                 raw.acceleration_limits = acceleration_limits.as_ptr();
             }
             Motion::Frames { interval, position_error, acceleration_limits } => {
-                raw.kind = 2;
+                raw.kind = sys::KS_MOTION_FRAMES;
                 raw.acceleration_limits = optional(acceleration_limits, states);
                 raw.interval = interval;
                 raw.position_error = position_error;
@@ -200,7 +129,7 @@ unsafe extern "C" fn respond<F: Fn(&Event) -> Response + Sync>(
     user: *mut c_void,
 ) -> i32 {
     Guarded::<F>::call_shared(user, |function| {
-        if let Some(event) = Event::of(*event) {
+        if let Some(event) = Event::of(&*event) {
             *response = function(&event).raw();
         }
     })
@@ -208,7 +137,7 @@ unsafe extern "C" fn respond<F: Fn(&Event) -> Response + Sync>(
 
 unsafe extern "C" fn sink<F: FnMut(&Event)>(event: *const sys::ks_event, user: *mut c_void) -> i32 {
     Guarded::<F>::call(user, |function| {
-        if let Some(event) = Event::of(*event) {
+        if let Some(event) = Event::of(&*event) {
             function(&event)
         }
     })
@@ -536,7 +465,7 @@ impl World {
     }
     /// What the world knows of a body.
     pub fn body(&self, body: BodyId) -> Result<BodyView> {
-        let mut raw = BodyView::raw();
+        let mut raw = sys::ks_body_view::new();
         self.check(unsafe { sys::ks_world_body(self.handle, body, &mut raw) })?;
         Ok(BodyView::of(&raw))
     }
@@ -566,21 +495,21 @@ impl World {
     where
         F: FnMut(&[BodyId], f64, &mut [State]),
     {
-        let mut event = new_event();
+        let mut event = sys::ks_event::new();
         self.with_probe(probe, |probe, user| unsafe {
             sys::ks_world_advance(self.handle, until, probe, user, &mut event)
         })?;
-        Ok(Event::of(event))
+        Ok(Event::of(&event))
     }
 
     /// Like `advance`, for a world whose bodies are all moved by motions.
     pub fn advance_motions(&mut self, until: f64) -> Result<Option<Event>> {
-        let mut event = new_event();
+        let mut event = sys::ks_event::new();
         self.check(unsafe {
             let probe: sys::ks_probe = sys::ks_probe_motions;
             sys::ks_world_advance(self.handle, until, Some(probe), ptr::null_mut(), &mut event)
         })?;
-        Ok(Event::of(event))
+        Ok(Event::of(&event))
     }
 
     /// Advances to time `until` and answers all events; `on_event` receives each, in order, with this world to read.
@@ -720,10 +649,6 @@ impl World {
         guarded.resume();
         self.check(status)
     }
-}
-
-pub(crate) fn new_event() -> sys::ks_event {
-    sys::ks_event { struct_size: size_of::<sys::ks_event>() as u32, ..Default::default() }
 }
 
 /// The callback for a function of this type.

@@ -1,4 +1,6 @@
-// Sizes of the records, on machines with 64-bit pointers. A change here breaks programs that have been
+// Generated from include/kinesphere.h by interface/generate.py: change the header, and run that.
+// clang-format off
+// Sizes of the records, on machines with 64-bit pointers. A change of this file breaks programs that have been
 // compiled, so it needs another KS_ABI_VERSION; only records that begin with struct_size may grow, and the
 // library then takes both sizes.
 #include <kinesphere.h>
@@ -12,20 +14,20 @@ HAS_SIZE(ks_box, 48);
 HAS_SIZE(ks_shape, 88);
 HAS_SIZE(ks_mesh, 8);
 HAS_SIZE(ks_world, 8);
-HAS_SIZE(ks_world_definition, 144);
 HAS_SIZE(ks_filter, 24);
+HAS_SIZE(ks_world_definition, 144);
 HAS_SIZE(ks_body_definition, 160);
 HAS_SIZE(ks_static_definition, 136);
-HAS_SIZE(ks_motion_limits, 48);
-HAS_SIZE(ks_body_view, 264);
-HAS_SIZE(ks_sensor_overlap, 24);
-HAS_SIZE(ks_timings, 24);
-HAS_SIZE(ks_busy_body, 88);
 HAS_SIZE(ks_quaternion, 32);
 HAS_SIZE(ks_rotation, 56);
 HAS_SIZE(ks_rigid_part, 56);
 HAS_SIZE(ks_rigid_hull, 24);
 HAS_SIZE(ks_rigid_definition, 136);
+HAS_SIZE(ks_motion_limits, 48);
+HAS_SIZE(ks_body_view, 264);
+HAS_SIZE(ks_sensor_overlap, 24);
+HAS_SIZE(ks_timings, 24);
+HAS_SIZE(ks_busy_body, 88);
 HAS_SIZE(ks_event, 400);
 HAS_SIZE(ks_response, 128);
 HAS_SIZE(ks_event_hash, 16);

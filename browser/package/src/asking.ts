@@ -1,9 +1,10 @@
 // Callbacks of an advancing world: states of bodies, and responses to events.
 import { BodyMap } from "./body_map.js";
-import { Event, eventNumbers } from "./event.js";
+import { Event } from "./event.js";
 import type { Module } from "./module.js";
 import { Motion } from "./motion.js";
 import { checkKeys, type Keys, refusePromise, requireNumbers, shown } from "./options.js";
+import { type BodyAction, bodyActions, eventSize } from "./records.js";
 import { bounced, type Bounces, checkBounce } from "./response.js";
 import { rotationNumbers, type RotationProbeFunction } from "./rigid_body.js";
 import { Scene } from "./scene.js";
@@ -16,9 +17,6 @@ import { type Vec3, vector } from "./state.js";
 export type ProbeFunction = (ids: Float64Array, time: number, states: Float64Array) => void;
 /** If the ids of a world are the numbers of a motion's bodies, the motion itself is a probe; else a BodyMap. */
 export type Probe = ProbeFunction | Motion | BodyMap;
-
-/** What an answer does to a body, after it has got its velocity; `sleep` gives it velocity 0. */
-export type BodyAction = "remove" | "disable" | "sleep";
 
 /**
  * What an event does to its bodies: velocities from then on, and what else is done to them. A body without both goes on
@@ -63,12 +61,11 @@ const answerKeys: Keys<Answer> = {
 };
 /** The vectors of an answer, in the order in which the module reads them. */
 const answerVectors = ["first", "second", "firstAngularVelocity", "secondAngularVelocity"] as const;
-const actions: readonly (BodyAction | undefined)[] = [undefined, "remove", "disable", "sleep"];
-
 /** Returns the number of an action in the module. */
 function actionNumber(action: BodyAction | undefined, what: string): number {
-  const number = actions.indexOf(action);
-  if (number < 0) throw new TypeError(`respond: ${what} must be "remove", "disable" or "sleep", but is ${shown(action)}`);
+  if (action === undefined) return 0;
+  const number = bodyActions.indexOf(action) + 1;
+  if (number < 1) throw new TypeError(`respond: ${what} must be "remove", "disable" or "sleep", but is ${shown(action)}`);
   return number;
 }
 
@@ -103,7 +100,7 @@ export function asking(
   module: Module, probe: ProbeFunction | null, respond: RespondFunction | null, rotate: RotationProbeFunction | null,
   atStop?: (event: Event) => void,
 ) {
-  const eventAt = (numbers: number) => new Event(module.numbersAt(numbers, eventNumbers).slice());
+  const eventAt = (numbers: number) => new Event(module.numbersAt(numbers, eventSize).slice());
   return {
     rotate(count: number, ids: number, time: number, rotations: number): void {
       const answer = new Float64Array(rotationNumbers * count).fill(NaN);

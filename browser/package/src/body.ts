@@ -1,40 +1,14 @@
-// Definitions of bodies, and their tables of numbers for the module.
-import { type Box, boxKeys, type ContactEvents, numberOfContacts } from "./definition.js";
-import { type Filter, filterNumbers } from "./filter.js";
-import { checkKeys, type Keys, requireNumbers, whole } from "./options.js";
+// Definitions of bodies, and shapes in numbers for the module.
+import { type Box, boxKeys } from "./definition.js";
+import type { Filter } from "./filter.js";
+import { checkKeys, type Keys, requireNumbers } from "./options.js";
+import { type BodyFields, bodyFieldKeys, type MotionLimits, motionLimitsFieldKeys } from "./records.js";
 import { type PerBody, type States, type Vec3, vector } from "./state.js";
 
-/** What a body promises: the fields of BodyDefinition with these names. */
-export interface MotionLimits {
-  /** >= 0 (length / time^2): the largest deviation from the planned acceleration. */
-  accelerationLimit?: number;
-  plannedAcceleration?: Vec3;
-  /** >= 0 (length): every reported position is within this of the true one. */
-  positionError?: number;
-  /** >= 0 (length / time). */
-  velocityError?: number;
-}
-
 /** The part of a definition that does not depend on the place. */
-export interface BodyOptions extends MotionLimits {
-  filter?: Filter;
-  /** A body that is not solid only senses and is sensed. */
-  solid?: boolean;
-  /** Which contact events it asks for; by default those of the world's definition. */
-  contacts?: ContactEvents;
-  sensorClass?: number;
-  /** A whole number of the caller's, up to 2^53. */
-  userData?: number;
-  /** >= 0, or infinite; by default 1: every event of the body has it, and `bounce` and `run` use it. */
-  mass?: number;
-}
-
-export interface BodyDefinition extends BodyOptions {
-  position: Vec3;
-  velocity?: Vec3;
-  /** >= 0 (length); by default 1. */
-  radius?: number;
-}
+export interface BodyOptions extends Omit<BodyFields, "position" | "velocity" | "radius"> {}
+/** A body, in the order of its state, its shape and what it promises (kinesphere/body.hpp). */
+export interface BodyDefinition extends BodyFields {}
 
 /** A body that carries a shape, which stands for its radius. */
 export type ShapeCarrier = Omit<BodyDefinition, "radius">;
@@ -79,14 +53,15 @@ export interface MeshShape {
   corners: ArrayLike<number>;
 }
 
-export const limitKeys: Keys<MotionLimits> = {
-  accelerationLimit: "number", plannedAcceleration: true, positionError: "number", velocityError: "number",
-};
-export const movedKeys: Keys<MovedOptions> = {
-  filter: true, solid: "boolean", contacts: true, sensorClass: "number", userData: "number", mass: "number",
-};
+export const limitKeys: Keys<MotionLimits> = motionLimitsFieldKeys;
+export const bodyKeys: Keys<BodyDefinition> = bodyFieldKeys;
+const { position: _position, velocity: _velocity, radius: _radius, ...optionKeys } = bodyKeys;
+const {
+  accelerationLimit: _limit, plannedAcceleration: _planned, positionError: _position_error, velocityError: _velocity_error,
+  ...optionKeysOfMoved
+} = optionKeys;
+export const movedKeys: Keys<MovedOptions> = optionKeysOfMoved;
 export const movedBodyKeys: Keys<MovedBodyDefinition> = { ...movedKeys, radius: "number" };
-export const bodyKeys: Keys<BodyDefinition> = { ...limitKeys, ...movedKeys, position: true, velocity: true, radius: "number" };
 const { radius: ___, ...carrierKeys } = bodyKeys;
 export const shapeCarrierKeys: Keys<ShapeCarrier> = carrierKeys;
 const { accelerationLimit: _, ...commonLimitKeys } = limitKeys;
@@ -115,29 +90,6 @@ const shapeKeys: Readonly<Record<ShapeName, true>> = {
 const meshKeys: Keys<MeshShape> = { vertices: true, corners: true };
 const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius: "number" };
 const halfSpaceKeys: Keys<{ normal: Vec3; offset: number }> = { normal: true, offset: "number" };
-
-/** Size of the table that body_at() in browser/module/world.cpp reads. */
-export const bodyNumbers = 21;
-
-export function putBody(numbers: Float64Array, at: number, body: BodyDefinition, call: string): void {
-  numbers.set(vector(body.position, "position", call), at);
-  numbers.set(vector(body.velocity ?? [0, 0, 0], "velocity", call), at + 3);
-  numbers[at + 6] = body.radius ?? 1;
-  putOptions(numbers, at, body, call);
-}
-
-export function putOptions(numbers: Float64Array, at: number, body: BodyOptions, call: string): void {
-  numbers[at + 7] = body.accelerationLimit ?? 0;
-  numbers.set(vector(body.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", call), at + 8);
-  numbers[at + 11] = body.positionError ?? 0;
-  numbers[at + 12] = body.velocityError ?? 0;
-  numbers[at + 13] = body.solid === false ? 0 : 1;
-  numbers[at + 14] = whole(body.sensorClass ?? 0, 255, "sensorClass", call);
-  numbers.set(filterNumbers(body.filter ?? {}, call), at + 15);
-  numbers[at + 18] = whole(body.userData ?? 0, 2 ** 53, "userData", call);
-  numbers[at + 19] = body.mass ?? 1;
-  numbers[at + 20] = body.contacts === undefined ? 0 : numberOfContacts(body.contacts, call);
-}
 
 /** Reads a shape from its kind and its numbers. */
 export function shapeFrom([kind, ...parts]: number[]): Shape {

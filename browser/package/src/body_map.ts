@@ -1,11 +1,9 @@
 // BodyMap: which body of a world is which body of which motion.
-import {
-  bodyNumbers, type MovedBodyDefinition, movedBodyKeys, movedKeys, type MovedOptions, putBody, type Shape,
-  shapeNumbers,
-} from "./body.js";
+import { type MovedBodyDefinition, movedBodyKeys, movedKeys, type MovedOptions, type Shape, shapeNumbers } from "./body.js";
 import { Owned, theModule } from "./module.js";
 import { type FrameMotion, type Motion, rotationArguments, timeArgument } from "./motion.js";
 import { checkKeys, requireNumbers } from "./options.js";
+import { bodySize, putBodyFields } from "./records.js";
 import { movedRigidArguments, type MovedRigidBodyDefinition, type RigidPart } from "./rigid_body.js";
 import { type BodyId, countOf, each, type PerBody, sixOf, type State, type Vec3, vector } from "./state.js";
 import type { World } from "./world.js";
@@ -182,7 +180,7 @@ function addressesOf(world: World, motion: Motion, call: string): [world: number
 
 /** Returns the table of a body whose state and limits come from a motion. */
 function like(body: MovedBodyDefinition, call: string): Float64Array {
-  const numbers = new Float64Array(bodyNumbers);
-  putBody(numbers, 0, { ...body, position: [0, 0, 0] }, call);
+  const numbers = new Float64Array(bodySize);
+  putBodyFields(numbers, 0, { ...body, position: [0, 0, 0] }, call);
   return numbers;
 }

@@ -2,14 +2,7 @@
 // The WebAssembly module: its memory, its functions, and its errors as exceptions.
 import type { PairFilter } from "./filter.js";
 import { checkKeys, type Keys, refusePromise, shown } from "./options.js";
-
-/** The reason of a failed call: one of the error codes of the library (kinesphere/result.hpp). */
-export type ErrorCode =
-  | "not_finite" | "out_of_range" | "time_backwards" | "unknown_body" | "stale_body" | "foreign_body"
-  | "disabled_body" | "enabled_body" | "static_body" | "outside_domain" | "overlapping" | "probe_in_progress"
-  | "filter_in_progress" | "run_in_progress" | "workers_busy" | "no_threads" | "null_probe" | "null_callback"
-  | "callback_threw" | "rank_failed" | "moved_from" | "unsupported" | "bad_snapshot" | "bad_bytes"
-  | "recording" | "not_recording" | "not_profiling" | "bad_recording" | "diverged";
+import type { ErrorCode } from "./records.js";
 
 /** An error of the library. Its message names the call, the argument, the body, and the wrong value. */
 export class KinesphereError extends Error {

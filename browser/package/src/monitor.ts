@@ -3,8 +3,12 @@ import { type Module, Owned, theModule } from "./module.js";
 import {
   type FullMonitorDefinition, type MonitorDefinition, monitorDefinitionOf, monitorNumbers,
 } from "./monitor_definition.js";
-import { MonitorEvent, MonitorEvents, type TrackId, type Verdict, verdictOf } from "./monitor_event.js";
+import { MonitorEvent, MonitorEvents } from "./monitor_event.js";
 import { refusePromise, requireBytes, whole } from "./options.js";
+import {
+  type OpenPair, openPairOf, openPairSize, type PairAnswer, pairAnswerOf, type PredictedPair, predictedPairOf, predictedPairSize,
+  type ReportRequest, reportRequestOf, reportRequestSize, type TrackId,
+} from "./records.js";
 import { batchNumbers, putReport, type ReportBatch, reportNumbers, trackId, type TrackReport } from "./report.js";
 
 /** Counts of the work that a monitor has done since it was created. */
@@ -17,66 +21,6 @@ export interface MonitorCounters {
   searches: number;
   nearPairs: number;
   rechecks: number;
-}
-
-/** The verdict about two tracks and a separation now, and a forecast. Times are absolute. */
-export interface PairAnswer {
-  verdict: Verdict;
-  /** Time since which the verdict has held; -Infinity for a pair that is apart at all levels. */
-  since: number;
-  /** A certain verdict is true until this time, whatever is reported. */
-  until: number;
-  /** Limits of the distance now (length); for a cylinder, of the distance in the plane. */
-  lower: number;
-  upper: number;
-  /** Estimate, if both go straight on: distance and time of the closest approach; for a cylinder that in the plane. */
-  closestDistance: number;
-  closestTime: number;
-  /** Estimate: horizontal and vertical part of the distance at that time. */
-  closestHorizontal: number;
-  closestVertical: number;
-  /** Estimate: speed of one relative to the other now. */
-  relativeSpeed: number;
-  /** Estimate: time at which they first are within the separation; Infinity if they never are. */
-  likelyTime: number;
-  /** The pair certainly is within at some time up to this one, whatever the tracks do within their limits. */
-  inevitableBy: number;
-  /** Estimate: if both go straight on until this time, no accelerations within their limits keep them out. */
-  avoidableUntil: number;
-  /** The track whose report would tighten the bounds most, and by when it is needed for the verdict to stay certain. */
-  ask: TrackId;
-  askBy: number;
-  /** True from its event "predicted" to "prediction_ended". */
-  predicted: boolean;
-}
-
-/** A pair that is not certainly apart at one separation level. */
-export interface OpenPair {
-  first: TrackId;
-  second: TrackId;
-  level: number;
-  verdict: Verdict;
-  since: number;
-}
-
-/** A pair that is predicted to come within a separation. */
-export interface PredictedPair {
-  first: TrackId;
-  second: TrackId;
-  level: number;
-  /** Time of its event "predicted". */
-  since: number;
-  /** As in MonitorEvent, from now. */
-  likelyTime: number;
-  closestTime: number;
-  closestDistance: number;
-}
-
-/** Without a report of `track` by time `by`, a verdict about `track` and `other` turns undecided. */
-export interface ReportRequest {
-  track: TrackId;
-  by: number;
-  other: TrackId;
 }
 
 /** The track certainly lies within `radius` of `centre`. */
@@ -230,37 +174,15 @@ export class Monitor extends Owned {
     const call = "answer";
     module.require(module.call("monitor_answer", this.address, trackId(first, "first", call),
                                trackId(second, "second", call), whole(level, 2 ** 32 - 1, "level", call)));
-    const numbers = module.answer();
-    return {
-      verdict: verdictOf(numbers[0]!),
-      since: numbers[1]!,
-      until: numbers[2]!,
-      lower: numbers[3]!,
-      upper: numbers[4]!,
-      closestDistance: numbers[5]!,
-      closestTime: numbers[6]!,
-      closestHorizontal: numbers[7]!,
-      closestVertical: numbers[8]!,
-      relativeSpeed: numbers[9]!,
-      likelyTime: numbers[10]!,
-      inevitableBy: numbers[11]!,
-      avoidableUntil: numbers[12]!,
-      ask: numbers[13]!,
-      askBy: numbers[14]!,
-      predicted: numbers[15] === 1,
-    };
+    return pairAnswerOf(module.answer());
   }
   /** Returns the pairs that are not certainly apart, in the order of their ids and levels. */
   openPairs(): OpenPair[] {
-    return this.rows("monitor_open_pairs", 5, (row) =>
-      ({ first: row[0]!, second: row[1]!, level: row[2]!, verdict: verdictOf(row[3]!), since: row[4]! }));
+    return this.rows("monitor_open_pairs", openPairSize, openPairOf);
   }
   /** Returns the pairs that are predicted to come within a separation, in the order of their ids and levels. */
   predictedPairs(): PredictedPair[] {
-    return this.rows("monitor_predicted_pairs", 7, (row) => ({
-      first: row[0]!, second: row[1]!, level: row[2]!, since: row[3]!, likelyTime: row[4]!, closestTime: row[5]!,
-      closestDistance: row[6]!,
-    }));
+    return this.rows("monitor_predicted_pairs", predictedPairSize, predictedPairOf);
   }
   /** Number of pairs that are not certainly apart or were not at some time in the current window. */
   get openPairCount(): number {
@@ -275,7 +197,7 @@ export class Monitor extends Owned {
    * Pairs are known only up to the end of the current window.
    */
   needed(until: number): ReportRequest[] {
-    return this.rows("monitor_needed", 3, (row) => ({ track: row[0]!, by: row[1]!, other: row[2]! }), until);
+    return this.rows("monitor_needed", reportRequestSize, reportRequestOf, until);
   }
   /** Returns the whole monitor, for Monitor.restore() in any process, including native ones. */
   save(): Uint8Array {

@@ -1,6 +1,7 @@
 // Definitions of monitors: classes, separations, levels.
+import { boundNumbers, boundOf, type ErrorBound } from "./error_bound.js";
 import { checkKeys, type Keys, shown, whole } from "./options.js";
-import { boundNumbers, type ErrorBound } from "./report.js";
+import { monitorFieldKeys, type MonitorFields, monitorFieldsOf, monitorSize, putMonitorFields } from "./records.js";
 import { type Vec3, vector } from "./state.js";
 
 /** Motion limits that hold for all tracks of a class. At least one of the two limits has to be finite. */
@@ -59,31 +60,12 @@ export interface Shard {
 }
 
 /** The definition of a monitor; kinesphere/monitor/monitor.hpp documents each field. */
-export interface MonitorDefinition {
+export interface MonitorDefinition extends MonitorFields {
   classes: readonly TrackClass[];
   /** Pairs of classes that no rule names are not watched. */
   separations?: readonly SeparationRule[];
-  /** 2: z is ignored. */
-  dimensions?: 2 | 3;
   /** Start of the clock; by default the first timestamp, or the first time passed to advance(). */
   startTime?: number;
-  /** > 0 (length): a pair is "within" if it is at most this far outside the separation. */
-  tolerance?: number;
-  /** > 0 (time): an undecided verdict that time alone decides becomes certain at most this late. */
-  timeResolution?: number;
-  /** > 0 (time): about the time between two reports of a track. */
-  window?: number;
-  /** > 0 (time): ages of the latest report at which a track becomes stale and is dropped; by default Infinity. */
-  staleAfter?: number;
-  dropAfter?: number;
-  /** >= 0 (time): a prediction ends once it has not held for this long. */
-  predictionHold?: number;
-  /** >= 0 (time): a prediction begins once it has held for this long. */
-  predictionConfirmation?: number;
-  /** 0 to 1: a prediction that has begun holds as long as it would at a separation larger by this part. */
-  predictionMargin?: number;
-  /** 0 to 1: separations are enlarged for predictions by this part of the position errors of both tracks. */
-  predictionErrorPart?: number;
   shard?: Shard;
 }
 
@@ -97,9 +79,7 @@ export type FullMonitorDefinition =
   };
 
 const monitorKeys: Keys<MonitorDefinition> = {
-  classes: true, separations: true, dimensions: "number", startTime: "number", tolerance: "number", timeResolution: "number", window: "number",
-  staleAfter: "number", dropAfter: "number", predictionHold: "number", predictionConfirmation: "number", predictionMargin: "number",
-  predictionErrorPart: "number", shard: true,
+  classes: true, separations: true, ...monitorFieldKeys, startTime: "number", shard: true,
 };
 const classKeys: Keys<TrackClass> = { accelerationLimit: true, plannedAcceleration: true, largestSpeed: true };
 const ruleKeys: Keys<SeparationRule> = { firstClass: "number", secondClass: "number", levels: true };
@@ -156,19 +136,13 @@ export function monitorNumbers(definition: MonitorDefinition): number[] {
   const classes = list(definition.classes, "classes");
   const separations = list(definition.separations ?? [], "separations");
   const share = (value: number, what: string) => whole(value, Number.MAX_SAFE_INTEGER, `shard.${what}`, call);
+  whole(definition.dimensions ?? 3, 3, "dimensions", call);
+  const fields = new Float64Array(monitorSize);
+  putMonitorFields(fields, 0, definition, call);
   const numbers = [
-    whole(definition.dimensions ?? 3, 3, "dimensions", call),
+    ...fields,
     definition.startTime === undefined ? 0 : 1,
     definition.startTime ?? 0,
-    definition.tolerance ?? 1e-3,
-    definition.timeResolution ?? 1e-3,
-    definition.window ?? 1,
-    definition.staleAfter ?? Infinity,
-    definition.dropAfter ?? Infinity,
-    definition.predictionHold ?? 0,
-    definition.predictionConfirmation ?? 0,
-    definition.predictionMargin ?? 0,
-    definition.predictionErrorPart ?? 0,
     share(shard.of ?? 1, "of"),
     share(shard.first ?? 0, "first"),
     share(shard.count ?? 1, "count"),
@@ -179,8 +153,8 @@ export function monitorNumbers(definition: MonitorDefinition): number[] {
     checkKeys(one, classKeys, `classes[${k}]`, call);
     numbers.push(
       ...boundNumbers(one.accelerationLimit ?? Infinity, `classes[${k}].accelerationLimit`, call),
-      ...vector(one.plannedAcceleration ?? [0, 0, 0], `classes[${k}].plannedAcceleration`, call),
-      ...boundNumbers(one.largestSpeed ?? Infinity, `classes[${k}].largestSpeed`, call));
+      ...boundNumbers(one.largestSpeed ?? Infinity, `classes[${k}].largestSpeed`, call),
+      ...vector(one.plannedAcceleration ?? [0, 0, 0], `classes[${k}].plannedAcceleration`, call));
   }
   for (const [k, rule] of separations.entries()) {
     const what = `separations[${k}]`;
@@ -195,26 +169,19 @@ export function monitorNumbers(definition: MonitorDefinition): number[] {
 
 /** Returns the definition that these numbers describe. */
 export function monitorDefinitionOf(numbers: Float64Array): FullMonitorDefinition {
-  let next = 0;
+  let next = monitorSize;
   const number = () => numbers[next++]!;
   const several = (count: number) => numbers.subarray(next, (next += count));
-  const bound = (): ErrorBound => {
-    const [isCylinder, horizontal, vertical] = several(3);
-    return isCylinder === 0 ? horizontal! : { horizontal: horizontal!, vertical: vertical! };
-  };
-  const dimensions = number() as 2 | 3;
   const [starts, startTime] = several(2);
   const common = {
-    dimensions, ...(starts === 0 ? {} : { startTime: startTime! }), tolerance: number(), timeResolution: number(),
-    window: number(), staleAfter: number(), dropAfter: number(), predictionHold: number(),
-    predictionConfirmation: number(), predictionMargin: number(), predictionErrorPart: number(),
+    ...monitorFieldsOf(numbers), ...(starts === 0 ? {} : { startTime: startTime! }),
     shard: { of: number(), first: number(), count: number() },
   };
   const classes = number(), rules = number();
   return {
     ...common,
     classes: Array.from({ length: classes }, () =>
-      ({ accelerationLimit: bound(), plannedAcceleration: several(3), largestSpeed: bound() })),
+      ({ accelerationLimit: boundOf(several(3)), largestSpeed: boundOf(several(3)), plannedAcceleration: several(3) })),
     separations: Array.from({ length: rules }, () => {
       const [firstClass, secondClass, levels] = several(3);
       return {

@@ -33,6 +33,13 @@ export class Replay extends Owned {
   get stepCount(): number {
     return theModule().call("replay_step_count", this.address);
   }
+  /** 16 hexadecimal digits of all outcomes so far: events, and the work that led to them. */
+  get hash(): string {
+    const module = theModule();
+    module.call("replay_hash", this.address);
+    const [low, high] = module.answer();
+    return high!.toString(16).padStart(8, "0") + low!.toString(16).padStart(8, "0");
+  }
   /** The world after the last step. */
   get world(): WorldView {
     return this.view;

@@ -1,7 +1,8 @@
 // Rigid bodies: balls, capsules, boxes and convex hulls that move and turn together.
-import { bodyNumbers, movedKeys, type MovedOptions, putBody, type ShapeCarrier, shapeCarrierKeys } from "./body.js";
+import { movedKeys, type MovedOptions, type ShapeCarrier, shapeCarrierKeys } from "./body.js";
 import type { Scratch } from "./module.js";
 import { checkKeys, type Keys, requireNumbers, shown } from "./options.js";
+import { bodySize, putBodyFields } from "./records.js";
 import { type Vec3, vector } from "./state.js";
 
 /** A rotation as a unit quaternion w, x, y, z. */
@@ -132,8 +133,8 @@ export function rigidArguments(
     orientation = [1, 0, 0, 0], angularVelocity = [0, 0, 0], angularAccelerationLimit = 0, largestAngularSpeed = Infinity,
     inertia = [0, 0, 0], ...rest
   } = body;
-  const numbers = new Float64Array(bodyNumbers);
-  putBody(numbers, 0, rest, call);
+  const numbers = new Float64Array(bodySize);
+  putBodyFields(numbers, 0, rest, call);
   const rigid = [
     ...numbersOfRotation({ orientation, angularVelocity }, call), angularAccelerationLimit, largestAngularSpeed,
     ...vector(inertia, "inertia", call),

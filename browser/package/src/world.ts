@@ -4,19 +4,22 @@ import {
 } from "./answers.js";
 import { asking, moving, type Probe, responded, runKeys, type RunOptions } from "./asking.js";
 import {
-  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, limitKeys, type MotionLimits, movedKeys,
-  type MovedOptions, putBody, putOptions, type Shape, type ShapeCarrier, shapeCarrierKeys, shapeFrom, shapeNumbers,
-  staticKeys, type StaticOptions, zoneKeys, type ZoneOptions,
+  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, limitKeys, movedKeys, type MovedOptions, type Shape,
+  type ShapeCarrier, shapeCarrierKeys, shapeFrom, shapeNumbers, staticKeys, type StaticOptions, zoneKeys, type ZoneOptions,
 } from "./body.js";
 import { BodyMap } from "./body_map.js";
 import {
   type Box, boxKeys, type Definition, definitionAt, definitionNumbers, type WorldDefinition,
 } from "./definition.js";
-import { Event, type EventKind, eventKinds, Events, type Wall, wallOf } from "./event.js";
+import { Event, Events } from "./event.js";
 import { type Filter, filterFrom, filterNumbers, maskNumber, type PairFilter } from "./filter.js";
 import { type KeptFilter, Owned, type Scratch, theModule } from "./module.js";
 import { Motion, type MotionDefinition } from "./motion.js";
 import { checkKeys, requireBytes, requireNumbers, shown, whole } from "./options.js";
+import {
+  bodyAt, bodySize, type EventKind, eventKinds, type MotionLimits, motionLimitsSize, type ProbeReason, probeReasons, putBodyFields,
+  putMotionLimits, type Wall, wallOf,
+} from "./records.js";
 import {
   numbersOfRotation, partsFrom, rigidArguments, type RigidBodyDefinition, type RigidPart, type Rotation, rotationFrom,
   type RotationProbeFunction,
@@ -86,12 +89,6 @@ export interface Counters {
   /** Contacts that are `jammed`: a bounce parts their bodies without speed, so energy is lost. */
   jammedContacts: number;
 }
-
-const reasons = [
-  "touching", "narrow_misses", "loose_limit", "contacts", "travel", "changes", "queries",
-] as const;
-/** Main reason for the probes of a body (kinesphere/inspection.hpp explains each). */
-export type ProbeReason = (typeof reasons)[number];
 
 /** A body that was probed while profiling was on, and why. */
 export interface BusyBody {
@@ -250,7 +247,7 @@ export class WorldView extends Owned {
       module.call("advice", numbers[1]!);
       return {
         body: numbers[0]!,
-        reason: reasons[numbers[1]!]!,
+        reason: probeReasons[numbers[1]!]!,
         advice: module.textOfBytes(),
         probes: numbers[2]!,
         touching: numbers[3]!,
@@ -437,8 +434,8 @@ export class World extends WorldView {
   /** Adds a body at the current time. */
   add(body: BodyDefinition): BodyId {
     checkKeys(body, bodyKeys, "body", "add");
-    const numbers = new Float64Array(bodyNumbers);
-    putBody(numbers, 0, body, "add");
+    const numbers = new Float64Array(bodySize);
+    putBodyFields(numbers, 0, body, "add");
     return this.addNumbers(numbers)[0]!;
   }
   /** Adds all bodies or, after an error, none. Returns their ids. */
@@ -452,21 +449,21 @@ export class World extends WorldView {
     const masses = each(bodies.masses ?? 1, count, "masses", call);
     const { positions, velocities } = bodies;
     requireAsMany(velocities, positions, call);
-    const numbers = new Float64Array(count * bodyNumbers);
-    const common = new Float64Array(bodyNumbers);
+    const numbers = new Float64Array(count * bodySize);
+    const common = new Float64Array(bodySize);
     const { userData: _, ...options } = bodies;
-    putOptions(common, 0, options, call);
+    putBodyFields(common, 0, { ...options, position: [0, 0, 0] }, call);
     for (let k = 0; k < count; ++k) {
-      const at = k * bodyNumbers;
+      const at = k * bodySize;
       numbers.set(common, at);
       for (let axis = 0; axis < 3; ++axis) {
-        numbers[at + axis] = positions[3 * k + axis]!;
-        numbers[at + 3 + axis] = velocities?.[3 * k + axis] ?? 0;
+        numbers[at + bodyAt.position + axis] = positions[3 * k + axis]!;
+        numbers[at + bodyAt.velocity + axis] = velocities?.[3 * k + axis] ?? 0;
       }
-      numbers[at + 6] = radii[k]!;
-      numbers[at + 7] = limits[k]!;
-      numbers[at + 18] = whole(userData[k]!, 2 ** 53, "userData", call);
-      numbers[at + 19] = masses[k]!;
+      numbers[at + bodyAt.radius] = radii[k]!;
+      numbers[at + bodyAt.accelerationLimit] = limits[k]!;
+      numbers[at + bodyAt.userData] = whole(userData[k]!, 2 ** 53, "userData", call);
+      numbers[at + bodyAt.mass] = masses[k]!;
     }
     return this.addNumbers(numbers);
   }
@@ -483,10 +480,10 @@ export class World extends WorldView {
                            `${this.size} (a BodyMap has no such need)`);
     const count = motion.size;
     const sizes = each(radii, count, "radii", call);
-    const numbers = new Float64Array(count * bodyNumbers);
+    const numbers = new Float64Array(count * bodySize);
     for (let k = 0; k < count; ++k) {
       const known: MotionDefinition = motion.definition(k, this.time);
-      putBody(numbers, k * bodyNumbers, { ...options, ...known, radius: sizes[k]! }, call);
+      putBodyFields(numbers, k * bodySize, { ...options, ...known, radius: sizes[k]! }, call);
     }
     const ids = this.addNumbers(numbers);
     if (ids.every((id, k) => id === k)) return ids;
@@ -504,8 +501,8 @@ export class World extends WorldView {
     checkKeys(body, shapeCarrierKeys, "body", call);
     const module = theModule();
     const [kind, parts] = shapeNumbers(shape, call);
-    const numbers = new Float64Array(bodyNumbers);
-    putBody(numbers, 0, body, call);
+    const numbers = new Float64Array(bodySize);
+    putBodyFields(numbers, 0, body, call);
     const id = module.with((scratch) =>
       module.call("world_add_moving_shape", this.address, kind, scratch.numbers(parts), scratch.numbers(numbers)));
     if (id < 0) throw module.error();
@@ -624,12 +621,9 @@ export class World extends WorldView {
   /** Gives a body other motion limits from now on. */
   setMotionLimits(body: BodyId, limits: MotionLimits): void {
     checkKeys(limits, limitKeys, "limits", "setMotionLimits");
-    this.change("world_set_motion_limits", body, [
-      limits.accelerationLimit ?? 0,
-      ...vector(limits.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", "setMotionLimits"),
-      limits.positionError ?? 0,
-      limits.velocityError ?? 0,
-    ]);
+    const numbers = new Float64Array(motionLimitsSize);
+    putMotionLimits(numbers, 0, limits, "setMotionLimits");
+    this.change("world_set_motion_limits", body, Array.from(numbers));
   }
   /** Disables the body: it touches no other and is never probed. */
   disable(body: BodyId): void {
@@ -824,7 +818,7 @@ export class World extends WorldView {
   private addNumbers(numbers: Float64Array): Float64Array {
     const module = theModule();
     return module.with((scratch) => {
-      module.require(module.call("world_add_all", this.address, numbers.length / bodyNumbers, scratch.numbers(numbers)));
+      module.require(module.call("world_add_all", this.address, numbers.length / bodySize, scratch.numbers(numbers)));
       return module.answer();
     });
   }
