@@ -31,7 +31,7 @@ pages() {
 site() {
   export KINESPHERE_SITE=$PWD/build/browser/site
   scripts/docs.sh --viewer "$KINESPHERE_SITE"
-  node --test browser/viewer/test/first_page.test.mjs
+  node --test browser/viewer/test/first_page.test.mjs browser/viewer/test/two_bodies.test.mjs
 }
 
 case ${2:-all} in

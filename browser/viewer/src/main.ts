@@ -9,7 +9,7 @@ import { Legend } from "./legend.ts";
 import { makePanel } from "./panel.ts";
 import { Recording } from "./recording.ts";
 import type { TrackTable } from "./scenes/crowd.ts";
-import { sceneAbout, sceneKeys, scenes } from "./scenes/list.ts";
+import { sceneAbout, sceneKeys, scenes, setUp } from "./scenes/list.ts";
 import { type Colouring, firstSettings } from "./settings.ts";
 import type { Shown, ReportedEvent } from "./shown.ts";
 import { Simulation } from "./simulation.ts";
@@ -84,7 +84,8 @@ let chosen = { ...settings };
 function restart(): void {
   hud.hideMessage();
   try {
-    show(new Simulation({ name: settings.scene, bodies: settings.bodies, seed: settings.seed }, opened));
+    const { scene: name, bodies, seed } = settings;
+    show(new Simulation(setUp({ name, bodies, seed }, opened), sceneAbout(name)));
     settings.bodies = shown.radii().length;
     chosen = { ...settings };
   } catch (error) {

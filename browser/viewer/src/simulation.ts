@@ -2,9 +2,7 @@
 import { type BodyId, type BodyView, type Box, type BusyBody, type Event, EventHash, type Vec3, type World } from "kinesphere";
 import { type CarriedShapes, carriedShapes, type Orientations, orientationsAt } from "./carried_shapes.ts";
 import { isMissedByLoop, loopLooksWithin } from "./missed.ts";
-import type { TrackTable } from "./scenes/crowd.ts";
-import { sceneAbout, setUp } from "./scenes/list.ts";
-import type { AlarmDistances, LiveScene, SceneChoice, Setup } from "./scenes/live_scene.ts";
+import type { AlarmDistances, LiveScene, Setup } from "./scenes/live_scene.ts";
 import { emptyTally, type NearPair, RecentRate, type Shown, type Tally, type ReportedEvent, wrapInto } from "./shown.ts";
 
 /** Simulated time between two snapshots. */
@@ -46,7 +44,6 @@ export class Simulation implements Shown {
   readonly alarms: AlarmDistances | null;
   readonly endTime: number;
   readonly periodic: readonly boolean[];
-  private readonly setup: Setup;
   private readonly carried: CarriedShapes;
   private now: Moment;
   /** Snapshots in order of time. */
@@ -55,12 +52,10 @@ export class Simulation implements Shown {
   /** The world whose probes are counted, since when, and what was counted in the period before. */
   private profile: { world: World; since: number; before: BusyBody[] } | null = null;
 
-  /** `opened` are the tracks of a recorded crowd. */
-  constructor(readonly choice: SceneChoice, opened: TrackTable | null = null) {
-    const about = sceneAbout(choice.name);
-    this.setup = setUp(choice, opened);
-    this.title = this.setup.title ?? about.title;
-    this.about = this.setup.about ?? about.about;
+  /** Takes the scene over. `words` are its title and what is to be seen, if the setup itself does not say it. */
+  constructor(private readonly setup: Setup, words: { title: string; about: string }) {
+    this.title = this.setup.title ?? words.title;
+    this.about = this.setup.about ?? words.about;
     const { scene, zone, trails, alarms, region, endTime } = this.setup;
     const { box, periodic } = scene.world.definition;
     this.box = box ?? null;

@@ -6,7 +6,8 @@ import {
   MeshBasicMaterial, PerspectiveCamera, Scene, Sphere, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { type CarriedShapes, CarriedShapeMeshes, type Orientations } from "./carried_shapes.ts";
+import { CarriedShapeMeshes } from "./carried_shape_meshes.ts";
+import type { CarriedShapes, Orientations } from "./carried_shapes.ts";
 import type { Palette } from "./colours.ts";
 import type { Shown } from "./shown.ts";
 import { Spheres, sunDirection } from "./spheres.ts";
