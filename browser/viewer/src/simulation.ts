@@ -49,6 +49,7 @@ export class Simulation implements Shown {
   /** Snapshots in order of time. */
   private snapshots: Moment[] = [];
   private rate = new RecentRate();
+  private pushed = false;
   /** The world whose probes are counted, since when, and what was counted in the period before. */
   private profile: { world: World; since: number; before: BusyBody[] } | null = null;
 
@@ -72,6 +73,9 @@ export class Simulation implements Shown {
 
   get scene(): LiveScene { return this.now.scene; }
   get time(): number { return this.now.scene.world.time; }
+  get firstTime(): number { return this.snapshots[0]!.scene.world.time; }
+  /** True if a body was pushed: then the scene is no longer what its seed alone makes. */
+  get wasPushed(): boolean { return this.pushed; }
   get view(): World { return this.now.scene.world; }
   get tally(): Tally { return this.now.tally; }
   get hash(): string { return this.now.hash.value; }
@@ -138,7 +142,7 @@ export class Simulation implements Shown {
   }
 
   back(seconds: number): void {
-    const target = Math.max(this.time - seconds, this.snapshots[0]!.scene.world.time);
+    const target = Math.max(this.time - seconds, this.firstTime);
     while (this.snapshots.length > 1 && this.snapshots.at(-1)!.scene.world.time > target) this.snapshots.pop()!.scene.free();
     this.now.scene.free();
     this.now = copyOf(this.snapshots.at(-1)!);
@@ -148,6 +152,7 @@ export class Simulation implements Shown {
 
   /** Sets the velocity until the body is pushed or hits something. */
   setVelocity(body: BodyId, velocity: Vec3): void {
+    this.pushed = true;
     this.now.scene.setVelocity?.(body, velocity);
   }
 

@@ -113,6 +113,16 @@ export class Stage {
     this.controls.update();
   }
 
+  /** The place of the camera, and the place that it looks at. */
+  get cameraPlace(): number[] {
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
+  }
+  lookAs(place: readonly number[]): void {
+    this.camera.position.fromArray(place);
+    this.controls.target.fromArray(place, 3);
+    this.controls.update();
+  }
+
   /** Puts the picture into the part of the canvas that nothing else covers. */
   leaveFree(covered: Margins): void {
     this.covered = covered;
