@@ -72,7 +72,24 @@ test("a link shows everybody the same moment, and nonsense in it does no harm", 
   assert.deepEqual([second.time, second.hash, second.probes, second.moment], [1.25, first.hash, first.probes, first.moment]);
   page = await inBrowser.open("?shape=round&seed=-3&t=soon");
   const { moment, playing } = await state(page);
-  assert.deepEqual([moment, playing], [{ shape: "wide", seed: 4, time: null }, true]);
+  assert.deepEqual([moment, playing], [{ shape: "wide", seed: 4, time: null, asLoop: false }, true]);
+});
+
+test("as a loop sees it, discs stand still from look to look", async () => {
+  const page = await inBrowser.open("?t=1.001");
+  const picture = (time) => discs(page, (demo, time) => {
+    demo.goTo(time);
+    return document.querySelector(".live-canvas").toDataURL();
+  }, time);
+  // Between the looks at 60/60 and 61/60 of a second.
+  assert.notEqual(await picture(1.001), await picture(1.015));
+  await page.getByRole("button", { name: "As 60 Hz sees it" }).click();
+  assert.equal(await picture(1.001), await picture(1.015));
+  assert.notEqual(await picture(1.015), await picture(1.018));
+  const { address } = await state(page);
+  const linked = await inBrowser.open(address);
+  assert.equal((await state(linked)).moment.asLoop, true);
+  assert.equal(await linked.getByRole("button", { name: "As 60 Hz sees it" }).getAttribute("aria-pressed"), "true");
 });
 
 test("copies the link of the moment", async () => {
@@ -120,6 +137,22 @@ test("the picture follows the dark switch of the page, whatever the system says"
   await page.locator("label[title='Dark']").click();
   await page.waitForFunction(() => document.body.dataset.mdColorScheme === "slate");
   assert.deepEqual(await corner(), [15, 22, 34]);
+});
+
+test("drawings follow the switch, too", async () => {
+  const page = await inBrowser.open("", { colorScheme: "light" });
+  await page.locator("label[title='Dark']").click();
+  await page.goto(`${inBrowser.address}lessons/the-idea.html`);
+  const picture = page.locator("img[src$='bound.svg']");
+  const png = (await picture.screenshot()).toString("base64");
+  const middle = await page.evaluate(async (png) => {
+    const image = Object.assign(new Image(), { src: `data:image/png;base64,${png}` });
+    await image.decode();
+    const context = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height }).getContext("2d");
+    context.drawImage(image, 0, 0);
+    return Array.from(context.getImageData(20, image.height >> 1, 1, 1).data.slice(0, 3));
+  }, png);
+  assert.ok(Math.max(...middle) < 60, `${middle}`);
 });
 
 for (const [name, options] of [["phone", phone], ["desktop", desktop]]) {

@@ -2,7 +2,7 @@
 import { type DiscsChoice, discsEnd } from "../scenes/discs.ts";
 import type { Simulation } from "../simulation.ts";
 import { calmQuery } from "../theme.ts";
-import { drawDiscs, looksUntil } from "./discs_picture.ts";
+import { drawAsLoop, drawDiscs, looksUntil } from "./discs_picture.ts";
 import { button, copyButton, make, slider } from "./elements.ts";
 import { FlatPicture } from "./flat_picture.ts";
 import { followInks } from "./inks.ts";
@@ -22,6 +22,8 @@ interface Moment {
   seed: number;
   /** Null if nothing is said: the run begins, and plays. */
   time: number | null;
+  /** Whether it is seen as a loop of 60 Hz sees it. */
+  asLoop: boolean;
 }
 
 const largestSeed = 9999;
@@ -35,6 +37,7 @@ function momentOf(address: URL): Moment {
     shape: shape === "wide" || shape === "tall" ? shape : matchMedia("(max-width: 720px)").matches ? "tall" : "wide",
     seed: Number.isInteger(seed) && seed >= 1 && seed <= largestSeed ? seed : 4,
     time: time >= 0 && time <= discsEnd ? time : null,
+    asLoop: searchParams.get("view") === "loop",
   };
 }
 
@@ -52,6 +55,7 @@ export class DiscsDemo {
   private readonly canvas = make("canvas", { role: "img", class: "live-canvas" });
   private readonly picture: FlatPicture;
   private readonly play = button("Pause", () => this.setPlaying(!this.playing));
+  private readonly loop = button("As 60 Hz sees it", () => this.seeAsLoop(!this.moment.asLoop));
   private readonly timeline = slider("Time", [0, discsEnd, 0.001], 0, (time) => { this.setPlaying(false); this.goTo(time); });
   private readonly marks = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   private readonly cells: Record<"found" | "seen" | "missed" | "asked" | "looks", HTMLElement>;
@@ -79,6 +83,7 @@ export class DiscsDemo {
     new ResizeObserver(() => this.draw()).observe(this.canvas);
     new IntersectionObserver(([seen]) => { this.inSight = seen!.isIntersecting; }).observe(this.canvas);
     this.markContacts();
+    this.seeAsLoop(this.moment.asLoop);
     this.goTo(this.moment.time ?? (calmQuery.matches ? 1 : 0));
     this.setPlaying(this.moment.time === null && !calmQuery.matches);
     requestAnimationFrame((now) => this.frame(now));
@@ -86,9 +91,9 @@ export class DiscsDemo {
 
   /** The address of what is seen now. */
   get address(): string {
-    const { shape, seed } = this.moment;
+    const { shape, seed, asLoop } = this.moment;
     const address = new URL(location.href);
-    address.search = new URLSearchParams({ shape, seed: `${seed}`, t: this.simulation.time.toFixed(4) }).toString();
+    address.search = new URLSearchParams({ shape, seed: `${seed}`, t: this.simulation.time.toFixed(4), ...(asLoop && { view: "loop" }) }).toString();
     address.hash = "";
     return address.href;
   }
@@ -113,6 +118,12 @@ export class DiscsDemo {
     this.goTo(next?.time ?? 0);
   }
 
+  seeAsLoop(asLoop: boolean): void {
+    this.moment.asLoop = asLoop;
+    this.loop.setAttribute("aria-pressed", `${asLoop}`);
+    this.draw();
+  }
+
   /** Begins another run. */
   choose(seed: number): void {
     this.moment.seed = seed;
@@ -129,8 +140,8 @@ export class DiscsDemo {
 
   private buttons(): HTMLElement {
     const another = () => { this.choose(this.moment.seed % largestSeed + 1); this.setPlaying(!calmQuery.matches); };
-    return make("div", { class: "live-buttons" }, this.play, button("Next contact", () => this.next()), button("Another run", another),
-                copyButton("Copy link", () => this.address));
+    return make("div", { class: "live-buttons" }, this.play, button("Next contact", () => this.next()), this.loop,
+                button("Another run", another), copyButton("Copy link", () => this.address));
   }
 
   /** Draws a line for each contact: above those that are found here, below those that a loop sees. */
@@ -161,7 +172,7 @@ export class DiscsDemo {
 
   private draw(): void {
     if (this.picture.inks === null || this.canvas.clientWidth === 0) return;
-    drawDiscs(this.picture, this.simulation, this.run);
+    (this.moment.asLoop ? drawAsLoop : drawDiscs)(this.picture, this.simulation, this.run);
     const { time, tally, view } = this.simulation;
     this.timeline.input.value = `${time}`;
     this.timeline.output.textContent = `${time.toFixed(3)} s`;

@@ -13,7 +13,7 @@ export function drawDiscs(picture: FlatPicture, simulation: Simulation, run: Who
   const { time } = simulation;
   picture.begin();
   picture.rectangle(0, 0, picture.extent.right, picture.extent.top, { fill: "paper", stroke: "frame" });
-  drawTrails(picture, run, time);
+  drawTrails(picture, run, simulation.trails, time);
   const radii = simulation.radii();
   const positions = simulation.positions();
   const fast = new Set(simulation.trails);
@@ -32,10 +32,37 @@ export function drawDiscs(picture: FlatPicture, simulation: Simulation, run: Who
   drawContacts(picture, run, time);
 }
 
-function drawTrails(picture: FlatPicture, { trails }: WholeRun, time: number): void {
+/** The same time as a loop of 60 Hz sees it: discs stand still from look to look, and what is in between is not there. */
+export function drawAsLoop(picture: FlatPicture, simulation: Simulation, run: WholeRun): void {
+  const { time } = simulation;
+  picture.begin();
+  picture.rectangle(0, 0, picture.extent.right, picture.extent.top, { fill: "paper", stroke: "frame", dash: [10, 6] });
+  const look = lookAt(time);
+  const radii = simulation.radii();
+  const fast = new Set(simulation.trails);
+  for (const [body, places] of run.places.entries())
+    picture.disc(...places[look * placesPerLook]!, radii[body]!, { fill: fast.has(body) ? "other" : "body" });
+  for (const { time: begin, x, y, missed, ofTwo } of run.contacts) {
+    const seen = Math.ceil(begin * loopRate);
+    if (!missed && ofTwo && seen <= look) drawRing(picture, x, y, (look - seen) / (loopRate * contactShown), "contact", ofTwo);
+  }
+}
+
+/** The number of the loop's last look at a time. */
+function lookAt(time: number): number {
+  return Math.floor(time * loopRate + placeInterval / 2);
+}
+
+/** A ring that grows and vanishes, of an age from 0 to 1. */
+function drawRing(picture: FlatPicture, x: number, y: number, age: number, ink: "contact" | "missed", ofTwo: boolean): void {
+  if (age < 1) picture.ring(x, y, (ofTwo ? 8 : 3) + (ofTwo ? 22 : 7) * age, { stroke: ink, width: 3, opacity: 1 - age });
+}
+
+function drawTrails(picture: FlatPicture, { places }: WholeRun, bodies: readonly number[], time: number): void {
   const last = Math.floor(time * loopRate * placesPerLook);
   const first = Math.max(last - looksShown * placesPerLook, 0);
-  for (const trail of trails) {
+  for (const body of bodies) {
+    const trail = places[body]!;
     picture.line(trail.slice(first, last + 1), { stroke: "other", width: 1.5, opacity: 0.5 });
     for (let k = first; k <= last; ++k)
       if (k % placesPerLook === 0) picture.square(...trail[k]!, 7, { stroke: "quiet", fill: "paper", width: 1.5 });
@@ -52,11 +79,11 @@ function drawContacts(picture: FlatPicture, { contacts }: WholeRun, time: number
       picture.ring(x, y, 11, { stroke: "missed", width: 2.5, opacity });
       picture.cross(x, y, 6, { stroke: "missed", width: 2.5, opacity });
     }
-    if (age < 1) picture.ring(x, y, (ofTwo ? 8 : 3) + (ofTwo ? 22 : 7) * age, { stroke: missed ? "missed" : "contact", width: 3, opacity: 1 - age });
+    drawRing(picture, x, y, age, missed ? "missed" : "contact", ofTwo);
   }
 }
 
 /** Looks of a loop of 60 Hz at all discs up to a time. */
 export function looksUntil(time: number, discCount: number): number {
-  return discCount * (Math.floor(time * loopRate + placeInterval / 2) + 1);
+  return discCount * (lookAt(time) + 1);
 }

@@ -20,8 +20,8 @@ export const placeInterval = 1 / (loopRate * placesPerLook);
 
 export interface WholeRun {
   contacts: readonly ContactMark[];
-  /** Of each fast disc, the places at multiples of placeInterval. */
-  trails: readonly (readonly (readonly [number, number])[])[];
+  /** Of each disc, the places at multiples of placeInterval. */
+  places: readonly (readonly (readonly [number, number])[])[];
   /** Of all events, as EventHash of the library has it. */
   hash: string;
   /** States asked for in the whole run. */
@@ -35,18 +35,18 @@ export function newSimulation(choice: DiscsChoice): Simulation {
 export function wholeRun(choice: DiscsChoice): WholeRun {
   const simulation = newSimulation(choice);
   const contacts: ContactMark[] = [];
-  const trails: [number, number][][] = simulation.trails.map(() => []);
+  const places: [number, number][][] = Array.from(simulation.radii(), () => []);
   for (let k = 0; k * placeInterval <= discsEnd; ++k) {
     for (const { event, missed } of simulation.run(k * placeInterval)) {
       if (event.kind !== "contact_begin" && event.kind !== "wall_begin") continue;
       const [x, y] = event.point as unknown as [number, number];
       contacts.push({ time: event.time, x, y, missed, ofTwo: event.kind === "contact_begin" });
     }
-    const places = simulation.positions();
-    simulation.trails.forEach((body, at) => trails[at]!.push([places[3 * body]!, places[3 * body + 1]!]));
+    const now = simulation.positions();
+    places.forEach((ofBody, body) => ofBody.push([now[3 * body]!, now[3 * body + 1]!]));
   }
   const { hash } = simulation;
   const { probes } = simulation.view.counters;
   simulation.free();
-  return { contacts, trails, hash, probes };
+  return { contacts, places, hash, probes };
 }
