@@ -30,6 +30,7 @@ test("the first screen takes at most 400 KB, and the index of the search waits f
   const sum = sizes.reduce((all, [, size]) => all + size, 0);
   assert.ok(sum <= 400_000, `${sum} bytes: ${sizes.map((one) => one.join(" ")).join(", ")}`);
   assert.ok(!paths.some((path) => path.includes("search_index")));
+  assert.deepEqual(await page.locator("h1").allTextContents(), ["Kinesphere 1.0.0"]);
   await page.locator("[data-md-component='search-query']").click();
   await page.keyboard.type("certificate");
   await page.locator(".md-search-result__item").first().waitFor();
