@@ -17,7 +17,7 @@ TABLE = re.compile(
 )
 ROW = re.compile(r"<tr>\s*" + r"\s*".join([r"<td>(.*?)</td>"] * 4) + r"\s*</tr>", re.S)
 TAG = re.compile(r"<[^>]+>")
-STILL = "The picture is a recording: no Emscripten was at hand when this site was built."
+STILL = "The picture is a recording: this site was built without Emscripten."
 LOADING = "The picture is a recording until the library has been loaded."
 BESIDE = (
     "A loop looks 60 times a second, and misses what happens in between. Kinesphere asks a body where it is "

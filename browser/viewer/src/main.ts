@@ -87,8 +87,12 @@ function leaveFree(): void {
 
 /** The earlier choice stays if the scene cannot be made. */
 let chosen = { ...settings };
+/** The speed of the scene that a recording has taken the place of. */
+let speedOfScene: number | null = null;
 function restart(): void {
   hud.hideMessage();
+  settings.speed = speedOfScene ?? settings.speed;
+  speedOfScene = null;
   try {
     const { scene: name, bodies, seed } = settings;
     show(new Simulation(setUp({ name, bodies, seed }, opened), sceneAbout(name)));
@@ -104,6 +108,7 @@ function restart(): void {
 
 function chooseScene(): void {
   const { bodies, speed, evidence = false } = sceneAbout(settings.scene);
+  speedOfScene = null;
   settings.bodies = bodies;
   settings.speed = speed;
   settings.overlays.evidence = evidence;
@@ -213,6 +218,10 @@ function openRecording(name: string, bytes: ArrayBuffer): void {
   try {
     show(new Recording(name, new Uint8Array(bytes)));
     hud.hideMessage();
+    // A scene may be in slow motion; nothing is known of a recording.
+    speedOfScene ??= settings.speed;
+    settings.speed = 1;
+    refreshPanel();
     setPlaying(true);
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);

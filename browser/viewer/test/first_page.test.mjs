@@ -207,6 +207,6 @@ test("without Emscripten the first screen has the film, and says so", () => {
     <td><a href="python.html">more</a></td></tr></tbody></table>`;
   const made = (page) => execFileSync("python3", ["-c", "import sys, hero; print(*hero.split(sys.stdin.read(), '1.0', False, False))"],
     { input: page, cwd: fileURLToPath(new URL("../../../scripts/docs", import.meta.url)), stdio: "pipe" }).toString();
-  assert.match(made(page), /film\.svg.*The picture is a recording: no Emscripten/s);
+  assert.match(made(page), /film\.svg.*The picture is a recording: this site was built without Emscripten/s);
   assert.throws(() => made(page.replace("--no-build-isolation", "--fast")), /python\.md does not have the command of Python: .*--fast/);
 });

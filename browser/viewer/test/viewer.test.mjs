@@ -157,6 +157,7 @@ test("a broken file, a table and messages are refused with a message, and the sc
 test("a recording is shown to its end", async () => {
   const made = await page.evaluate(() => {
     const { simulation } = window.kinesphereViewer;
+    window.kinesphereViewer.settings.speed = 0.3;
     simulation.view.startRecording();
     const contacts = simulation.run(simulation.time + 0.5).filter(({ event }) => event.kind === "contact_begin").length;
     const files = new DataTransfer();
@@ -171,6 +172,11 @@ test("a recording is shown to its end", async () => {
     return { contacts: simulation.tally.contacts, time: simulation.time, bodies: simulation.bodyCount };
   });
   assert.deepEqual(shown, made);
+  // It is shown as fast as it was, and the scene in its slow motion afterwards.
+  const speed = () => page.evaluate(() => window.kinesphereViewer.settings.speed);
+  assert.equal(await speed(), 1);
+  await page.keyboard.press("r");
+  assert.equal(await speed(), 0.3);
 });
 
 test("a throw while time stands still counts", async () => {
