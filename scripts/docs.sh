@@ -2,19 +2,24 @@
 # Builds the documentation site, static files for any web server: the guides (MkDocs with Material), and the references of
 # C++ and C (Doxygen), Python, and TypeScript (TypeDoc, if asked for or installed already). Any warning, broken link or
 # public symbol without a description fails. Look at it with: python3 -m http.server --directory build/docs/site
-# Usage: docs.sh [--typescript] [--viewer] [output folder, else build/docs/site]
+# The first page runs the library in WebAssembly, which takes a minute to build, once, and build tools from npm.
+# Without Emscripten and npm it has a film instead, and says so.
+# Usage: docs.sh [--typescript] [--viewer] [--still] [output folder, else build/docs/site]
 #   --typescript: gets TypeDoc from npm, once
-#   --viewer: builds the viewer, too (in minutes), and the film of the first page leads to it
+#   --viewer: builds the viewer, too (in minutes), and the first page leads to it
+#   --still: the film, also where the library could be built
 # KINESPHERE_PYTHON names an interpreter that has the Python package; if there is none the package is built, in minutes.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 typescript=no
 viewer=no
+live=yes
 while [[ ${1:-} == --* ]]; do
   case $1 in
     --typescript) typescript=yes ;;
     --viewer) viewer=yes ;;
+    --still) live=no ;;
     *) echo "docs: there is no option $1" >&2 && exit 2 ;;
   esac
   shift
@@ -51,12 +56,20 @@ if [[ $typescript == yes && ! -x $typedoc ]]; then
   quietly npm --prefix "$tools" ci --no-audit --no-fund
 fi
 
-if [[ $viewer == yes ]]; then
-  scripts/setup.sh browser
-  quietly cmake --preset browser
-  quietly cmake --build --preset browser
-  export KINESPHERE_LIVE=yes
+if [[ $viewer == yes ]]; then scripts/setup.sh browser; fi
+if ! command -v emcc >/dev/null || ! command -v npm >/dev/null; then
+  if [[ $live == yes ]]; then echo "docs: the first page has a film: emcc and npm would make it live"; fi
+  live=no
 fi
+targets=()
+if [[ $live == yes ]]; then targets+=(live); fi
+if [[ $viewer == yes ]]; then targets+=(viewer) && export KINESPHERE_VIEWER=yes; fi
+if [[ ${#targets[@]} -gt 0 ]]; then
+  echo "docs: building for browsers: ${targets[*]}"
+  quietly cmake --preset browser
+  quietly cmake --build --preset browser --target "${targets[@]}"
+fi
+if [[ $live == yes ]]; then export KINESPHERE_LIVE=$PWD/build/browser/browser/live; fi
 address=$(sed -nE 's/^project\(kinesphere .*HOMEPAGE_URL "(.+)"$/\1/p' CMakeLists.txt)
 if [[ -n $address ]]; then export KINESPHERE_REPOSITORY=$address; fi
 /usr/bin/python3 -m mkdocs build --strict --quiet --site-dir "$site"

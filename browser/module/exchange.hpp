@@ -10,8 +10,13 @@
 
 #include "kinesphere/kinesphere.hpp"
 
-/// Exports a function to JavaScript under this name.
+/// Exports a function to JavaScript under this name. In the small module a list says which are exported
+/// (small_exports.txt), and what the others need is left out.
+#ifdef KINESPHERE_EXPORTS_BY_LIST
+#define KINESPHERE_EXPORT(name) extern "C"
+#else
 #define KINESPHERE_EXPORT(name) extern "C" __attribute__((export_name(#name), used))
+#endif
 /// Imports a JavaScript function under this name.
 #define KINESPHERE_IMPORT(name) extern "C" __attribute__((import_module("kinesphere"), import_name(#name)))
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the library in WebAssembly, its npm package and the viewer, and tests them: in Node.js, with and without SIMD, and
 # the viewer, the map and the documentation's first page in chromium.
-# Usage: run.sh <native program, for the hashes> [build | node | pages | site]
+# Usage: run.sh <native program, for the hashes> [build | node | pages | site | accessible]
 #   With a second argument only that part; the others need what `build` has built.
 set -euo pipefail
 
@@ -26,12 +26,16 @@ node_tests() {
 pages() {
   cd browser/viewer/test
   node --test viewer.test.mjs served.test.mjs hashes.test.mjs dragging.test.mjs pictures.test.mjs map.test.mjs \
-    fields.test.mjs
+    fields.test.mjs link.test.mjs
 }
+export KINESPHERE_SITE=$PWD/build/browser/site
 site() {
-  export KINESPHERE_SITE=$PWD/build/browser/site
   scripts/docs.sh --viewer "$KINESPHERE_SITE"
-  node --test browser/viewer/test/first_page.test.mjs
+  node --test browser/viewer/test/first_page.test.mjs browser/viewer/test/two_bodies.test.mjs
+}
+# Takes minutes: all pages of the site that `site` has made.
+accessible() {
+  node --test browser/viewer/test/accessible.test.mjs
 }
 
 case ${2:-all} in
@@ -39,6 +43,7 @@ case ${2:-all} in
   node) node_tests ;;
   pages) pages ;;
   site) site ;;
-  all) build; (node_tests); (pages); site ;;
+  accessible) accessible ;;
+  all) build; (node_tests); (pages); site; accessible ;;
   *) echo "run: no part is named $2" >&2; exit 1 ;;
 esac

@@ -3,19 +3,26 @@
 - Links to headers lead to the reference that Doxygen wrote; links to Markdown elsewhere to pages `project/...`; links
   to any other file or folder to pages `sources/...`, made here.
 - The pages that scripts/docs.sh has made, as the reference of Python, are in the folder that KINESPHERE_GENERATED names.
-- If it will put the viewer into the site, as KINESPHERE_LIVE says, the film of the first page leads to that.
+- The first page gets a first screen (hero.py). KINESPHERE_LIVE names the folder of its live parts, if they have been
+  built, and KINESPHERE_VIEWER is set if scripts/docs.sh will put the viewer into the site.
 """
 
 import json
 import os
 import posixpath
 import re
+import shutil
+import sys
 from pathlib import Path
 from typing import Any, Optional
 
 from mkdocs.structure.files import File
 
+sys.path.insert(0, str(Path(__file__).parent))
+import hero
+
 root = Path(__file__).resolve().parents[2]
+live = os.environ.get("KINESPHERE_LIVE")
 generated = Path(os.environ.get("KINESPHERE_GENERATED", root / "build/docs/generated"))
 languages = {
     ".cpp": "cpp",
@@ -37,10 +44,6 @@ LINK = re.compile(r"\]\((?![a-z]+:|#|/)([\w./+-]+)(#[^)\s]*)?\)")
 LIST_ITEM = re.compile(r" *([-*]|\d+\.) ")
 # A link that MkDocs is not to check: scripts/docs/check_links.py does so when all parts of the site are there.
 UNCHECKED = "/site-root/"
-FILM = re.compile(r"<p>(<picture>.*?</picture>)</p>", re.S)
-LIVE = r"""<figure class="live">\1
-<figcaption><a class="md-button md-button--primary" href="viewer/index.html">Run it live, in three dimensions</a></figcaption>
-</figure><script src="assets/live_viewer.js"></script>"""
 page_of_repository: dict[str, str] = {}
 references = {"python/kinesphere/_kinesphere.pyi": "reference/python.md"}
 if (root / "build/docs/typedoc/node_modules/.bin/typedoc").exists():
@@ -170,17 +173,26 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
 
 
 def on_page_content(html: str, page: Any, **_: Any) -> str:
-    """Makes links to pages that MkDocs does not make relative, as all others, and the first page live."""
-    if page.file.src_path == "index.md" and "KINESPHERE_LIVE" in os.environ:
-        html, found = FILM.subn(LIVE, html)
-        if found != 1:
-            raise ValueError("the first page has no film to be made live")
+    """Makes links to pages that MkDocs does not make relative, as all others; makes the first screen, and pages live."""
+    if page.file.src_path == "index.md":
+        found = re.search(
+            r"^project\(kinesphere VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text(), re.M
+        )
+        first, html = hero.split(html, found[1], live is not None, "KINESPHERE_VIEWER" in os.environ)
+        page.meta |= {
+            "template": "home.html",
+            "hide": ["navigation", "toc"],
+            "hero": first,
+        }
+    page.meta["live"] = live is not None and "data-live=" in page.meta.get("hero", "") + html
     up = posixpath.relpath(".", posixpath.dirname(page.url) or ".")
     return html.replace(f'"{UNCHECKED}', f'"{up}/')
 
 
 def on_post_build(config: Any) -> None:
-    """Takes the copies of sources out of the search, where they would hide the guides."""
+    """Takes the copies of sources out of the search, where they would hide the guides, and adds the live parts."""
+    if live is not None:
+        shutil.copytree(live, Path(config["site_dir"]) / "assets/live")
     index = Path(config["site_dir"]) / "search/search_index.json"
     content = json.loads(index.read_text())
     content["docs"] = [entry for entry in content["docs"] if not entry["location"].startswith("sources/")]

@@ -1,142 +1,46 @@
-// What is drawn in place of the ball around a body: the shape that it carries, or the parts of a rigid body.
-import type { BodyView, RigidPart, Shape, Vec3, WorldView } from "kinesphere";
-import {
-  Box3, BoxGeometry, BufferGeometry, CapsuleGeometry, type Color, DoubleSide, Float32BufferAttribute, Group, IcosahedronGeometry, type Material,
-  Mesh, MeshBasicMaterial, MeshPhongMaterial, Quaternion, SphereGeometry, Vector3,
-} from "three";
-import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
-import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
+// What bodies carry in place of a ball: a shape, or the parts of a rigid body, and how these are turned.
+import type { BodyView, RigidPart, Shape, WorldView } from "kinesphere";
 
 export type CarriedShape = Shape | { parts: readonly RigidPart[] };
 /** The shapes of the bodies that have one, by place in the picture. */
 export type CarriedShapes = ReadonlyMap<number, CarriedShape>;
+/** A unit quaternion x, y, z, w. */
+export type Orientation = readonly [x: number, y: number, z: number, w: number];
 /** How rigid bodies are turned, by place in the picture. */
-export type Orientations = ReadonlyMap<number, Quaternion>;
+export type Orientations = ReadonlyMap<number, Orientation>;
 
 export function carriedShapes(world: WorldView, views: readonly BodyView[]): CarriedShapes {
   const found = new Map<number, CarriedShape>();
   for (const [place, { id, isRigid }] of views.entries()) {
     const shape = isRigid ? { parts: world.partsOf(id) } : world.shapeOf(id);
-    if ("parts" in shape || "box" in shape || "triangle" in shape || "mesh" in shape) found.set(place, shape);
+    if (!("ball" in shape || "halfSpace" in shape)) found.set(place, shape);
   }
   return found;
 }
 
 /** Returns how rigid bodies are turned at `time`, if each has kept its angular velocity since its last report. */
 export function orientationsAt(time: number, world: WorldView, views: readonly BodyView[]): Orientations {
-  const found = new Map<number, Quaternion>();
+  const found = new Map<number, Orientation>();
   for (const [place, { id, isRigid, reportTime }] of views.entries()) {
     if (!isRigid) continue;
     const { orientation, angularVelocity } = world.rotation(id);
     const [w, x, y, z] = Array.from(orientation) as [number, number, number, number];
-    const spin = vectorOf(angularVelocity);
-    const speed = spin.length();
-    if (speed > 0) spin.divideScalar(speed);
-    const turned = new Quaternion().setFromAxisAngle(spin, speed * (time - reportTime));
-    found.set(place, turned.multiply(new Quaternion(x, y, z, w)));
+    found.set(place, product(turnBy(Array.from(angularVelocity), time - reportTime), [x, y, z, w]));
   }
   return found;
 }
 
-const vectorOf = (point: Vec3) => new Vector3().fromArray(Array.from(point as ArrayLike<number>));
-
-/** Returns the points whose convex hull, with the radius around it, is the part. */
-function cornersOf(part: RigidPart): { corners: Vector3[]; radius: number } {
-  if ("ball" in part) return { corners: [vectorOf(part.ball.centre)], radius: part.ball.radius };
-  if ("capsule" in part) return { corners: [vectorOf(part.capsule.a), vectorOf(part.capsule.b)], radius: part.capsule.radius };
-  if ("hull" in part) return { corners: part.hull.points.map(vectorOf), radius: part.hull.radius ?? 0 };
-  const [lower, upper] = [vectorOf(part.box.lower), vectorOf(part.box.upper)];
-  const corners = Array.from({ length: 8 }, (_, k) =>
-    new Vector3((k & 1 ? upper : lower).x, (k & 2 ? upper : lower).y, (k & 4 ? upper : lower).z));
-  return { corners, radius: part.box.radius ?? 0 };
+/** Returns the turn at this angular velocity (radians / time) for a duration. */
+function turnBy(angularVelocity: number[], duration: number): Orientation {
+  const [x, y, z] = angularVelocity as [number, number, number];
+  const speed = Math.sqrt(x * x + y * y + z * z);
+  const half = (speed * duration) / 2;
+  const part = speed > 0 ? Math.sin(half) / speed : 0;
+  return [part * x, part * y, part * z, Math.cos(half)];
 }
 
-function hullGeometry(corners: Vector3[], radius: number): BufferGeometry {
-  const size = new Box3().setFromPoints(corners).getSize(new Vector3()).length();
-  // Seen as if it had a little radius at least, since a flat hull would have no inside.
-  const round = new IcosahedronGeometry(Math.max(radius, 0.01 * size), 1).getAttribute("position");
-  const offsets = Array.from({ length: round.count }, (_, k) => new Vector3().fromBufferAttribute(round, k));
-  return new ConvexGeometry(corners.flatMap((corner) => offsets.map((offset) => offset.clone().add(corner))));
-}
-
-function partGeometry(part: RigidPart): BufferGeometry {
-  const { corners, radius } = cornersOf(part);
-  if (corners.length > 2) return hullGeometry(corners, radius);
-  const [a, b] = [corners[0]!, corners.at(-1)!];
-  const along = b.clone().sub(a);
-  // The geometry stands along y.
-  const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along.clone().normalize());
-  const round = along.length() === 0 ? new SphereGeometry(radius, 32, 24) : new CapsuleGeometry(radius, along.length(), 12, 24);
-  return round.applyQuaternion(turn).translate(...a.add(b).divideScalar(2).toArray());
-}
-
-/** All parts in one geometry, of triangles with normals alone. */
-function partsGeometry(parts: readonly RigidPart[]): BufferGeometry {
-  return mergeGeometries(parts.map((part) => {
-    const geometry = partGeometry(part);
-    geometry.deleteAttribute("uv");
-    return geometry.index === null ? geometry : geometry.toNonIndexed();
-  }));
-}
-
-function geometryOf(shape: CarriedShape): BufferGeometry {
-  if ("parts" in shape) return partsGeometry(shape.parts);
-  if ("box" in shape) {
-    const { lower, upper } = shape.box;
-    const part = (of: (axis: number) => number) => [of(0), of(1), of(2)] as const;
-    const middle = part((axis) => (lower[axis]! + upper[axis]!) / 2);
-    return new BoxGeometry(...part((axis) => upper[axis]! - lower[axis]!)).translate(...middle);
-  }
-  if ("mesh" in shape) {
-    const { vertices, corners } = shape.mesh;
-    return new BufferGeometry().setIndex(Array.from(corners))
-      .setAttribute("position", new Float32BufferAttribute(Array.from(vertices), 3));
-  }
-  const corners = "triangle" in shape ? shape.triangle.flatMap((corner: Vec3) => Array.from(corner as ArrayLike<number>)) : [];
-  return new BufferGeometry().setAttribute("position", new Float32BufferAttribute(corners, 3));
-}
-
-/** Rigid bodies look as balls do; moving shapes may be large, and are translucent. */
-function materialOf(shape: CarriedShape): Material & { color: Color } {
-  return "parts" in shape ? new MeshPhongMaterial({ specular: 0x444444, shininess: 48 })
-    : new MeshBasicMaterial({ transparent: true, opacity: 0.45, side: DoubleSide, depthWrite: false });
-}
-
-export class CarriedShapeMeshes {
-  readonly object = new Group();
-  private shapes: CarriedShapes = new Map();
-  private meshes = new Map<number, Mesh<BufferGeometry, Material & { color: Color }>>();
-
-  /** Draws the shapes at the positions of their bodies. */
-  draw(shapes: CarriedShapes, positions: Float64Array, orientations: Orientations, colourOf: (body: number) => Color): void {
-    if (shapes !== this.shapes) this.make(shapes);
-    for (const [place, mesh] of this.meshes) {
-      mesh.visible = !Number.isNaN(positions[3 * place]);
-      mesh.position.fromArray(positions, 3 * place);
-      const orientation = orientations.get(place);
-      if (orientation !== undefined) mesh.quaternion.copy(orientation);
-      mesh.material.color.copy(colourOf(place));
-    }
-  }
-
-  private make(shapes: CarriedShapes): void {
-    for (const { geometry, material } of this.meshes.values()) {
-      geometry.dispose();
-      material.dispose();
-    }
-    this.object.clear();
-    this.shapes = shapes;
-    // Bodies of equal shapes share a geometry.
-    const geometries = new Map<string, BufferGeometry>();
-    this.meshes = new Map(Array.from(shapes, ([place, shape]) => {
-      const key = JSON.stringify(shape);
-      const geometry = geometries.get(key) ?? geometryOf(shape);
-      geometries.set(key, geometry);
-      return [place, new Mesh(geometry, materialOf(shape))];
-    }));
-    for (const mesh of this.meshes.values()) {
-      mesh.renderOrder = mesh.material.transparent ? 1 : 0;
-      this.object.add(mesh);
-    }
-  }
+/** Returns the turn by the second and then by the first. */
+function product([ax, ay, az, aw]: Orientation, [bx, by, bz, bw]: Orientation): Orientation {
+  return [aw * bx + ax * bw + ay * bz - az * by, aw * by + ay * bw + az * bx - ax * bz,
+          aw * bz + az * bw + ax * by - ay * bx, aw * bw - ax * bx - ay * by - az * bz];
 }

@@ -11,6 +11,8 @@ export interface Palette {
   contact: Color;
   missed: Color;
   held: Color;
+  /** Spheres beneath the marks of missed contacts. */
+  grey: Color;
   zone: Color;
   trail: Color;
   /** Where a loop looks at a fast body. */
@@ -32,6 +34,7 @@ export const dark: Palette = {
   contact: new Color("#ffc46b"),
   missed: new Color("#ff4256"),
   held: new Color("#ffffff"),
+  grey: new Color("#7d8798"),
   zone: new Color("#3ddbd0"),
   trail: new Color("#a5c8ff"),
   look: new Color("#c8f7c5"),
@@ -48,6 +51,7 @@ export const bright: Palette = {
   contact: new Color("#e08a00"),
   missed: new Color("#e00025"),
   held: new Color("#101828"),
+  grey: new Color("#aab3c2"),
   zone: new Color("#009f98"),
   trail: new Color("#3f78d8"),
   look: new Color("#0b6b2e"),

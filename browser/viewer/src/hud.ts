@@ -66,8 +66,14 @@ export class Hud {
     this.busiest.update(showBusiest ? shown.busiest(busiestShown) : null);
   }
 
+  /** Shows a message that is no error. */
+  tell(text: string): void {
+    this.say(text);
+    this.message.classList.add("told");
+  }
   /** Shows an error message. */
   say(text: string): void {
+    this.message.classList.remove("told");
     this.messageText.textContent = text;
     this.message.hidden = false;
   }

@@ -4,9 +4,16 @@ import type { Palette } from "./colours.ts";
 import type { Settings } from "./settings.ts";
 import { countsMissed, type Shown } from "./shown.ts";
 
+/** Forms that are drawn as lines. */
+const drawings = {
+  ring: '<circle cx="12" cy="12" r="8"/>',
+  crossedRing: '<circle cx="12" cy="12" r="9"/><path d="m8 8 8 8m0-8-8 8"/>',
+  square: '<path d="M6 6h12v12H6z"/>',
+} as const;
+
 interface Entry {
-  /** A dot or a line of one colour, or a row of colours. */
-  kind: "dot" | "line" | "row";
+  /** A form of one colour, as it is in the picture, or a row of colours. */
+  kind: "dot" | "line" | "row" | keyof typeof drawings;
   colours: readonly Color[];
   words: string;
 }
@@ -18,17 +25,18 @@ const colourings: Record<Settings["colouring"], string> = {
 function entries(shown: Shown, { overlays: on, colouring }: Settings, palette: Palette): Entry[] {
   const dot = (colour: Color, words: string): Entry => ({ kind: "dot", colours: [colour], words });
   const line = (colour: Color, words: string): Entry => ({ kind: "line", colours: [colour], words });
+  const drawn = (kind: keyof typeof drawings, colour: Color, words: string): Entry => ({ kind, colours: [colour], words });
   const found: Entry[] = [];
-  if (on.contacts && shown.alarms === null) found.push(dot(palette.contact, "contact"));
-  if (on.contacts && countsMissed(shown)) found.push(dot(palette.missed, "contact that 60 Hz misses"));
+  if (on.contacts && shown.alarms === null) found.push(drawn("ring", palette.contact, "contact"));
+  if ((on.contacts || on.evidence) && countsMissed(shown)) found.push(drawn("crossedRing", palette.missed, "contact that 60 Hz misses"));
   if (shown.alarms !== null) found.push(line(palette.contact, "warning"), line(palette.missed, "alarm"));
-  if (on.trails && shown.trails.length > 0) found.push(line(palette.trail, "trail"), dot(palette.look, "where 60 Hz looks"));
+  if (on.trails && shown.trails.length > 0) found.push(line(palette.trail, "trail"), drawn("square", palette.look, "where 60 Hz looks"));
   if (on.probes) found.push(dot(palette.probe, "asked just now"));
   if (on.bounds) found.push(dot(palette.zone, "bound"));
   if (on.certificates) found.push({ kind: "row", colours: palette.times, words: "certificate for 1 ms to 1 s" });
   if (shown.zone !== null) found.push(dot(palette.zone, "zone"));
   if (colouring !== "size") found.push({ kind: "row", colours: palette.times, words: colourings[colouring] });
-  else if (haveSizes(shown.radii())) found.push({ kind: "row", colours: palette.sizes, words: colourings.size });
+  else if (haveSizes(shown.radii()) && !on.evidence) found.push({ kind: "row", colours: palette.sizes, words: colourings.size });
   return found;
 }
 
@@ -51,7 +59,8 @@ export class Legend {
       const sample = document.createElement("i");
       sample.className = kind;
       const names = colours.map((colour) => `#${colour.getHexString()}`);
-      sample.style.background = names.length === 1 ? names[0]! : `linear-gradient(90deg, ${names.join(", ")})`;
+      if (kind in drawings) sample.innerHTML = `<svg viewBox="0 0 24 24" stroke="${names[0]!}">${drawings[kind as keyof typeof drawings]}</svg>`;
+      else sample.style.background = names.length === 1 ? names[0]! : `linear-gradient(90deg, ${names.join(", ")})`;
       item.append(sample, words);
       return item;
     }));

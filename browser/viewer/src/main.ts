@@ -6,14 +6,16 @@ import { Hand } from "./hand.ts";
 import { Hud, type Times } from "./hud.ts";
 import { Overlays } from "./overlays.ts";
 import { Legend } from "./legend.ts";
+import { type Link, linkOf, readLink } from "./link.ts";
 import { makePanel } from "./panel.ts";
 import { Recording } from "./recording.ts";
 import type { TrackTable } from "./scenes/crowd.ts";
-import { sceneAbout, sceneKeys, scenes } from "./scenes/list.ts";
+import { sceneAbout, sceneKeys, scenes, setUp } from "./scenes/list.ts";
 import { type Colouring, firstSettings } from "./settings.ts";
 import type { Shown, ReportedEvent } from "./shown.ts";
 import { Simulation } from "./simulation.ts";
 import { Stage } from "./stage.ts";
+import { Timeline } from "./timeline.ts";
 import { applyTheme, calmQuery, darkQuery, type Theme } from "./theme.ts";
 import "./base.css";
 import "./style.css";
@@ -48,6 +50,9 @@ let sizePlaces: Float64Array = new Float64Array(0);
 let reported: ReportedEvent[] = [];
 const times: Times = { engine: 0, drawing: 0, frame: 0 };
 const hand = new Hand(stage, () => (shown instanceof Simulation && shown.canBePushed ? shown : null));
+/** The time that a link or the timeline asks for, until it is reached. */
+let goal: number | null = null;
+const timeline = new Timeline((time) => seek(time));
 /** The tracks that the server was given. */
 let opened: TrackTable | null = null;
 
@@ -55,6 +60,7 @@ function show(next: Shown): void {
   hand.release();
   shown?.free();
   shown = next;
+  goal = null;
   sizePlaces = placesOfSizes(shown.radii());
   reported = [];
   stage.show(shown);
@@ -81,10 +87,15 @@ function leaveFree(): void {
 
 /** The earlier choice stays if the scene cannot be made. */
 let chosen = { ...settings };
+/** The speed of the scene that a recording has taken the place of. */
+let speedOfScene: number | null = null;
 function restart(): void {
   hud.hideMessage();
+  settings.speed = speedOfScene ?? settings.speed;
+  speedOfScene = null;
   try {
-    show(new Simulation({ name: settings.scene, bodies: settings.bodies, seed: settings.seed }, opened));
+    const { scene: name, bodies, seed } = settings;
+    show(new Simulation(setUp({ name, bodies, seed }, opened), sceneAbout(name)));
     settings.bodies = shown.radii().length;
     chosen = { ...settings };
   } catch (error) {
@@ -96,9 +107,11 @@ function restart(): void {
 }
 
 function chooseScene(): void {
-  const { bodies, speed } = sceneAbout(settings.scene);
+  const { bodies, speed, evidence = false } = sceneAbout(settings.scene);
+  speedOfScene = null;
   settings.bodies = bodies;
   settings.speed = speed;
+  settings.overlays.evidence = evidence;
   setPlaying(true);
   restart();
 }
@@ -132,12 +145,67 @@ function attempt(action: () => ReportedEvent[] | void): void {
   times.engine += 0.1 * (performance.now() - start - times.engine);
 }
 
+/** Stops, and goes to a time: back at once, ahead as fast as the engine can. */
+function seek(time: number): void {
+  setPlaying(false);
+  hand.release();
+  goal = time;
+  if (time < shown.time) attempt(() => shown.back(shown.time - time));
+}
+
+/** Shows what a link says; a link that says nothing changes nothing. */
+function follow({ settings: chosen, overlays: on, time, camera }: Link): void {
+  if (chosen.scene !== undefined) {
+    settings.scene = chosen.scene;
+    chooseScene();
+  }
+  Object.assign(settings, chosen);
+  if (on !== null) for (const name of Object.keys(settings.overlays) as (keyof typeof settings.overlays)[]) settings.overlays[name] = on.includes(name);
+  if (chosen.bodies !== undefined || chosen.seed !== undefined) restart();
+  repaint();
+  if (camera !== null) stage.lookAs(camera);
+  if (time !== null) seek(time);
+  refreshPanel();
+}
+
+function followAddress(): void {
+  const text = location.hash.slice(1);
+  if (text === "" || text === "opened") return;
+  try {
+    follow(readLink(text));
+  } catch (error) {
+    sayError(error);
+  }
+}
+
+async function copyLink(): Promise<void> {
+  if (!(shown instanceof Simulation)) return hud.say("A recording has no link: it is on this machine alone.");
+  const address = new URL(location.href);
+  address.hash = linkOf(settings, shown.time, stage.cameraPlace);
+  try {
+    await navigator.clipboard.writeText(address.href);
+    hud.tell(shown.wasPushed ? "Copied. The link leads to this time of the scene as it would be without your throws." : "Copied: the link leads to this moment.");
+  } catch {
+    hud.tell(address.href);
+  }
+}
+
+function savePicture(): void {
+  stage.render();
+  const link = document.createElement("a");
+  link.download = `kinesphere-${shown.title.toLowerCase().replace(/[^a-z0-9]+/g, "-")}-${shown.time.toFixed(3)}.png`;
+  link.href = stage.canvas.toDataURL("image/png");
+  link.click();
+}
+
 const next = () => {
+  goal = null;
   setPlaying(false);
   attempt(() => shown.nextEvent());
   hud.update(shown, times, settings.overlays.busiest);
 };
 const back = () => {
+  goal = null;
   hand.release();
   attempt(() => shown.back(1));
   hud.update(shown, times, settings.overlays.busiest);
@@ -150,6 +218,10 @@ function openRecording(name: string, bytes: ArrayBuffer): void {
   try {
     show(new Recording(name, new Uint8Array(bytes)));
     hud.hideMessage();
+    // A scene may be in slow motion; nothing is known of a recording.
+    speedOfScene ??= settings.speed;
+    settings.speed = 1;
+    refreshPanel();
     setPlaying(true);
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
@@ -189,10 +261,12 @@ const refreshPanel = () => panel.controllersRecursive().forEach((controller) => 
 const cycle = <T>(values: readonly T[], value: T): T => values[(values.indexOf(value) + 1) % values.length]!;
 
 const keys: Record<string, () => void> = {
-  " ": () => setPlaying(!settings.playing),
+  " ": () => { goal = null; setPlaying(!settings.playing); },
   ".": next,
   ",": back,
   r: restart,
+  k: () => void copyLink(),
+  p: savePicture,
   v: () => stage.lookFromFront(),
   c: () => void (settings.colouring = cycle<Colouring>(["size", "asked", "safe"], settings.colouring)),
   b: () => void (settings.overlays.bounds = !settings.overlays.bounds),
@@ -207,14 +281,14 @@ const keys: Record<string, () => void> = {
 addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || element<HTMLDialogElement>("help").open) return;
   const target = event.target as HTMLElement;
-  if (target.matches("input, select, textarea") || (event.key === " " && target.matches("button"))) return;
+  if (target.matches("input:not([type=range]), select, textarea") || (event.key === " " && target.matches("button"))) return;
   const action = keys[event.key.toLowerCase()];
   if (action === undefined) return;
   event.preventDefault();
   action();
   refreshPanel();
 });
-for (const [id, key] of [["restart", "r"], ["back", ","], ["play", " "], ["next", "."], ["help-open", "?"]] as const)
+for (const [id, key] of [["restart", "r"], ["back", ","], ["play", " "], ["next", "."], ["copy-link", "k"], ["save-picture", "p"], ["help-open", "?"]] as const)
   element(id).addEventListener("click", keys[key]!);
 element<HTMLInputElement>("file").addEventListener("change", (event) => {
   const input = event.target as HTMLInputElement;
@@ -261,6 +335,7 @@ function draw(seconds: number): void {
   stage.draw(positions, radii, shown.shapes(), shown.orientations(), (body) => {
     if (body === hand.body) return colour.copy(palette.held);
     if (safe !== null) along(palette.times, placeOfDuration(safe[body]!), colour);
+    else if (on.evidence && colouring === "size") colour.copy(palette.grey);
     else if (colouring === "asked") along(palette.times, placeOfDuration(time - views![body]!.reportTime), colour);
     else along(palette.sizes, sizePlaces[body]!, colour);
     const glow = overlays.glow[body] ?? 0;
@@ -279,7 +354,11 @@ function frame(now: number): void {
   const seconds = Math.min(passed, longestFrame);
   times.frame += 0.1 * (now - last - times.frame);
   last = now;
-  if (settings.playing) {
+  if (goal !== null) {
+    const until = goal;
+    attempt(() => shown.run(until, performance.now() + engineBudget));
+    if (shown.time >= Math.min(until, shown.endTime)) goal = null;
+  } else if (settings.playing) {
     attempt(() => {
       hand.pull(settings.speed);
       return shown.run(shown.time + seconds * settings.speed, performance.now() + engineBudget);
@@ -295,6 +374,7 @@ function frame(now: number): void {
   viewer.pictures += 1;
   if (now - hudTime < 200) return;
   hudTime = now;
+  timeline.update(shown);
   hud.update(shown, times, settings.overlays.busiest);
   legend.update(shown, settings, palette);
 }
@@ -312,6 +392,7 @@ const viewer = {
   hand,
   times,
   setPlaying,
+  seek,
   restart,
   repaint,
   pictures: 0,
@@ -326,4 +407,6 @@ window.kinesphereViewer = viewer;
 repaint();
 chooseScene();
 requestAnimationFrame(frame);
+followAddress();
+addEventListener("hashchange", followAddress);
 if (location.hash === "#opened") void openServed();

@@ -2,37 +2,17 @@
 import type { BodyView, Box } from "kinesphere";
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, LineBasicMaterial, LineSegments,
-  Mesh, MeshBasicMaterial, NormalBlending, Points, type Scene, ShaderMaterial, AdditiveBlending,
+  Mesh, MeshBasicMaterial, type Scene,
 } from "three";
 import { along, type Palette, placeOfDuration } from "./colours.ts";
 import type { Settings } from "./settings.ts";
 import { shiftInto, type Shown, type ReportedEvent, wrapInto } from "./shown.ts";
+import { MissedMarks, Sparks } from "./sparks.ts";
 import { Spheres } from "./spheres.ts";
 import { Trails } from "./trails.ts";
 
-const sparkCount = 512;
 /** Life of the spark of a contact that a loop misses, of which there are few; that of others is 1. */
 const missedLife = 2;
-
-const sparkVertices = `
-  attribute vec4 tint;
-  attribute float size;
-  uniform float pixels;
-  varying vec4 colour;
-  void main() {
-    colour = tint;
-    vec4 place = modelViewMatrix * vec4(position, 1.0);
-    gl_Position = projectionMatrix * place;
-    gl_PointSize = clamp(size * pixels / -place.z, 0.0, 96.0);
-  }`;
-const sparkFragments = `
-  varying vec4 colour;
-  void main() {
-    float away = 2.0 * length(gl_PointCoord - 0.5);
-    float shine = smoothstep(1.0, 0.0, away);
-    gl_FragColor = vec4(colour.rgb, colour.a * shine * shine);
-    #include <colorspace_fragment>
-  }`;
 
 /** Lines that change in number from picture to picture. */
 class Lines {
@@ -117,38 +97,28 @@ export class Overlays {
   private readonly zoneMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
   private zone: Mesh | null = null;
   private zoneFlash = 0;
-  /** The rest of each spark's life, down to 0, and its initial brightness, which falls from 1 on. */
-  private readonly life = new Float32Array(sparkCount);
-  private readonly strength = new Float32Array(sparkCount);
-  private readonly places = new BufferAttribute(new Float32Array(3 * sparkCount), 3);
-  private readonly tints = new BufferAttribute(new Float32Array(4 * sparkCount), 4);
-  private readonly sizes = new BufferAttribute(new Float32Array(sparkCount), 1);
-  private readonly sparkMaterial = new ShaderMaterial({
-    vertexShader: sparkVertices, fragmentShader: sparkFragments, transparent: true, depthWrite: false, depthTest: false,
-    uniforms: { pixels: { value: 1000 } },
-  });
-  private nextSpark = 0;
+  private readonly sparks: Sparks;
+  private readonly missed: MissedMarks;
   private palette: Palette | null = null;
   private readonly colour = new Color();
 
   constructor(private readonly scene: Scene) {
-    const sparks = new Points(new BufferGeometry().setAttribute("position", this.places)
-      .setAttribute("tint", this.tints).setAttribute("size", this.sizes), this.sparkMaterial);
-    sparks.frustumCulled = false;
-    sparks.renderOrder = 3;
+    this.sparks = new Sparks(scene);
+    this.missed = new MissedMarks(scene);
     this.trails = new Trails(scene);
-    scene.add(sparks, this.bounds.object, this.boxes.object, this.cells.object, this.certificates.object,
+    scene.add(this.bounds.object, this.boxes.object, this.cells.object, this.certificates.object,
               this.alarms.object, this.pull.object);
   }
 
   paint(palette: Palette, isDark: boolean): void {
     this.palette = palette;
     this.zoneMaterial.color = palette.zone;
-    this.sparkMaterial.blending = isDark ? AdditiveBlending : NormalBlending;
+    this.sparks.blend(isDark);
   }
 
   show(shown: Shown): void {
-    this.life.fill(0);
+    this.sparks.clear();
+    this.missed.clear();
     this.glow = new Float32Array(0);
     this.trails.show(shown);
     if (this.zone !== null) {
@@ -159,22 +129,24 @@ export class Overlays {
     if (shown.zone !== null) this.zone = this.zoneMesh(shown.zone);
   }
 
-  /** Adds sparks at contacts. */
+  /** Adds marks at contacts. */
   add(reported: readonly ReportedEvent[], shown: Shown, extent: number): void {
+    const { missed: red, contact, zone } = this.palette!;
     for (const { event, missed } of reported) {
+      const { sparks } = this;
       if (shown.alarms !== null && event.kind === "sensor_enter") {
-        if (event.distance === shown.alarms.alarm) this.spark(event.point, this.palette!.missed, 0.8, extent / 16);
+        if (event.distance === shown.alarms.alarm) sparks.add(event.point, { colour: red, strength: 0.8, size: extent / 16, form: "ring" });
       } else if (event.kind === "sensor_enter") {
         this.zoneFlash = 1;
-        this.spark(event.firstState.position, this.palette!.zone, 0.4, extent / 16);
-      } else if (event.kind === "sensor_leave" && missed) {
-        this.spark(event.firstState.position, this.palette!.missed, 1, extent / 18, missedLife);
+        sparks.add(event.firstState.position, { colour: zone, strength: 0.4, size: extent / 16, form: "glow" });
+      } else if (missed) {
+        const place = event.kind === "contact_begin" ? event.point : event.firstState.position;
+        this.addMissed(event.time, wrapInto(Float64Array.from(place), shown.box, shown.periodic), extent);
       } else if (event.kind === "contact_begin") {
         const point = wrapInto(event.point.slice(), shown.box, shown.periodic);
-        const colour = missed ? this.palette!.missed : this.palette!.contact;
-        this.spark(point, colour, missed ? 1 : 0.75, extent / (missed ? 9 : 22), missed ? missedLife : 1);
+        sparks.add(point, { colour: contact, strength: 0.75, size: extent / 22, form: "ring" });
       } else if (event.kind === "wall_begin") {
-        this.spark(event.point, this.palette!.contact, 0.3, extent / 30);
+        sparks.add(event.point, { colour: contact, strength: 0.3, size: extent / 30, form: "glow" });
       }
     }
   }
@@ -183,8 +155,8 @@ export class Overlays {
   update(shown: Shown, views: readonly BodyView[] | null, positions: Float64Array, settings: Settings,
          seconds: number, calm: boolean, pixels: number): void {
     const on = settings.overlays;
-    this.fadeSparks(on.contacts ? seconds : Infinity, calm);
-    this.sparkMaterial.uniforms["pixels"]!.value = pixels;
+    this.sparks.fade(on.contacts ? seconds : Infinity, calm, pixels);
+    this.missed.update(shown.time, on.evidence, this.palette!.missed);
     this.zoneFlash *= Math.exp(-seconds / (calm ? 2 : 0.25));
     this.zoneMaterial.opacity = 0.16 + (calm ? 0.12 : 0.45) * this.zoneFlash;
     if (views !== null && on.probes) this.followProbes(views, seconds, calm);
@@ -221,25 +193,10 @@ export class Overlays {
     return mesh;
   }
 
-  private spark(place: ArrayLike<number>, colour: Color, strength: number, size: number, life = 1): void {
-    const k = this.nextSpark;
-    this.nextSpark = (k + 1) % sparkCount;
-    this.life[k] = life;
-    this.strength[k] = strength;
-    this.places.setXYZ(k, place[0]!, place[1]!, place[2]!);
-    this.tints.setXYZW(k, colour.r, colour.g, colour.b, 0);
-    this.sizes.setX(k, size);
-  }
-
-  private fadeSparks(seconds: number, calm: boolean): void {
-    const duration = calm ? 3 : 0.6;
-    for (let k = 0; k < sparkCount; ++k) {
-      this.life[k] = Math.max(0, this.life[k]! - seconds / duration);
-      // In calm mode sparks appear slowly, too.
-      const shape = calm ? 0.35 * Math.min(1, Math.max(0, 4 * (1 - this.life[k]!))) : 1;
-      this.tints.setW(k, this.strength[k]! * Math.min(1, this.life[k]!) * shape);
-    }
-    for (const attribute of [this.places, this.tints, this.sizes]) attribute.needsUpdate = true;
+  private addMissed(time: number, place: Float64Array, extent: number): void {
+    const colour = this.palette!.missed;
+    this.sparks.add(place, { colour, strength: 1, size: extent / 12, form: "crossedRing", life: missedLife });
+    this.missed.add(time, place, colour);
   }
 
   private followProbes(views: readonly BodyView[], seconds: number, calm: boolean): void {

@@ -1,7 +1,7 @@
 // The panel of settings.
 import GUI from "lil-gui";
 import { scenes } from "./scenes/list.ts";
-import type { Settings } from "./settings.ts";
+import { ranges, type Settings } from "./settings.ts";
 
 export interface PanelActions {
   chooseScene(): void;
@@ -14,12 +14,13 @@ export function makePanel(settings: Settings, actions: PanelActions): GUI {
   const gui = new GUI({ title: "Settings", container: document.querySelector<HTMLElement>("#panel")! });
   gui.add(settings, "scene", Object.fromEntries(scenes.map(({ title, name }) => [title, name]))).name("scene").onChange(actions.chooseScene)
     .domElement.classList.add("scene");
-  gui.add(settings, "speed", 0.02, 5, 0.01).name("speed");
-  gui.add(settings, "bodies", 10, 10_000, 10).name("bodies").onFinishChange(actions.restart);
-  gui.add(settings, "seed", 1, 1000, 1).name("seed").onFinishChange(actions.restart);
+  gui.add(settings, "speed", ...ranges.speed).name("speed");
+  gui.add(settings, "bodies", ranges.bodies[0], ranges.bodies[1], 10).name("bodies").onFinishChange(actions.restart);
+  gui.add(settings, "seed", ...ranges.seed).name("seed").onFinishChange(actions.restart);
   gui.add(settings, "colouring", { size: "size", "asked lately": "asked", "safe until": "safe" }).name("colour");
   const overlays = gui.addFolder("Show");
   overlays.add(settings.overlays, "contacts").name("contacts");
+  overlays.add(settings.overlays, "evidence").name("missed ones stay");
   overlays.add(settings.overlays, "trails").name("trails");
   overlays.add(settings.overlays, "probes").name("who is asked");
   overlays.add(settings.overlays, "bounds").name("bounds");

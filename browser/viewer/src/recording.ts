@@ -18,6 +18,7 @@ export class Recording implements Shown {
   private counts = emptyTally();
   private rate = new RecentRate();
   private shownTime: number;
+  readonly firstTime: number;
   private carried: CarriedShapes = new Map();
   /** The ids of the moving bodies whose shapes are known. */
   private carriers = "";
@@ -30,7 +31,7 @@ export class Recording implements Shown {
     this.periodic = [periodic.x === true, periodic.y === true, periodic.z === true];
     // The first steps add bodies.
     while (!this.replay.finished && this.replay.world.size === 0) this.step([]);
-    this.shownTime = this.replay.world.time;
+    this.shownTime = this.firstTime = this.replay.world.time;
   }
 
   get time(): number { return this.shownTime; }

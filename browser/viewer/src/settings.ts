@@ -13,6 +13,8 @@ export interface Settings {
   theme: Theme;
   overlays: {
     contacts: boolean;
+    /** Contacts that a loop misses stay marked, and spheres are grey beneath. */
+    evidence: boolean;
     trails: boolean;
     probes: boolean;
     bounds: boolean;
@@ -23,6 +25,10 @@ export interface Settings {
   };
 }
 
+/** What numbers may be: the least, the most, and the step between two. */
+export const ranges = { speed: [0.02, 5, 0.01], bodies: [10, 10_000, 1], seed: [1, 1000, 1] } as const;
+export const colourings: readonly Colouring[] = ["size", "asked", "safe"];
+
 export const firstSettings = (): Settings => ({
   scene: "missed",
   bodies: 160,
@@ -31,5 +37,5 @@ export const firstSettings = (): Settings => ({
   playing: true,
   colouring: "size",
   theme: "system",
-  overlays: { contacts: true, trails: true, probes: true, bounds: false, boxes: false, cells: false, certificates: false, busiest: false },
+  overlays: { contacts: true, evidence: true, trails: true, probes: true, bounds: false, boxes: false, cells: false, certificates: false, busiest: false },
 });

@@ -36,6 +36,8 @@ export interface Shown {
   readonly title: string;
   readonly about: string;
   readonly time: number;
+  /** How far back() reaches. */
+  readonly firstTime: number;
   /** Infinite if there is no end. */
   readonly endTime: number;
   readonly view: WorldView;

@@ -2,9 +2,7 @@
 import { type BodyId, type BodyView, type Box, type BusyBody, type Event, EventHash, type Vec3, type World } from "kinesphere";
 import { type CarriedShapes, carriedShapes, type Orientations, orientationsAt } from "./carried_shapes.ts";
 import { isMissedByLoop, loopLooksWithin } from "./missed.ts";
-import type { TrackTable } from "./scenes/crowd.ts";
-import { sceneAbout, setUp } from "./scenes/list.ts";
-import type { AlarmDistances, LiveScene, SceneChoice, Setup } from "./scenes/live_scene.ts";
+import type { AlarmDistances, LiveScene, Setup } from "./scenes/live_scene.ts";
 import { emptyTally, type NearPair, RecentRate, type Shown, type Tally, type ReportedEvent, wrapInto } from "./shown.ts";
 
 /** Simulated time between two snapshots. */
@@ -46,21 +44,19 @@ export class Simulation implements Shown {
   readonly alarms: AlarmDistances | null;
   readonly endTime: number;
   readonly periodic: readonly boolean[];
-  private readonly setup: Setup;
   private readonly carried: CarriedShapes;
   private now: Moment;
   /** Snapshots in order of time. */
   private snapshots: Moment[] = [];
   private rate = new RecentRate();
+  private pushed = false;
   /** The world whose probes are counted, since when, and what was counted in the period before. */
   private profile: { world: World; since: number; before: BusyBody[] } | null = null;
 
-  /** `opened` are the tracks of a recorded crowd. */
-  constructor(readonly choice: SceneChoice, opened: TrackTable | null = null) {
-    const about = sceneAbout(choice.name);
-    this.setup = setUp(choice, opened);
-    this.title = this.setup.title ?? about.title;
-    this.about = this.setup.about ?? about.about;
+  /** Takes the scene over. `words` are its title and what is to be seen, if the setup itself does not say it. */
+  constructor(private readonly setup: Setup, words: { title: string; about: string }) {
+    this.title = this.setup.title ?? words.title;
+    this.about = this.setup.about ?? words.about;
     const { scene, zone, trails, alarms, region, endTime } = this.setup;
     const { box, periodic } = scene.world.definition;
     this.box = box ?? null;
@@ -77,6 +73,9 @@ export class Simulation implements Shown {
 
   get scene(): LiveScene { return this.now.scene; }
   get time(): number { return this.now.scene.world.time; }
+  get firstTime(): number { return this.snapshots[0]!.scene.world.time; }
+  /** True if a body was pushed: then the scene is no longer what its seed alone makes. */
+  get wasPushed(): boolean { return this.pushed; }
   get view(): World { return this.now.scene.world; }
   get tally(): Tally { return this.now.tally; }
   get hash(): string { return this.now.hash.value; }
@@ -143,7 +142,7 @@ export class Simulation implements Shown {
   }
 
   back(seconds: number): void {
-    const target = Math.max(this.time - seconds, this.snapshots[0]!.scene.world.time);
+    const target = Math.max(this.time - seconds, this.firstTime);
     while (this.snapshots.length > 1 && this.snapshots.at(-1)!.scene.world.time > target) this.snapshots.pop()!.scene.free();
     this.now.scene.free();
     this.now = copyOf(this.snapshots.at(-1)!);
@@ -153,6 +152,7 @@ export class Simulation implements Shown {
 
   /** Sets the velocity until the body is pushed or hits something. */
   setVelocity(body: BodyId, velocity: Vec3): void {
+    this.pushed = true;
     this.now.scene.setVelocity?.(body, velocity);
   }
 

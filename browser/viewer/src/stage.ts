@@ -6,7 +6,8 @@ import {
   MeshBasicMaterial, PerspectiveCamera, Scene, Sphere, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { type CarriedShapes, CarriedShapeMeshes, type Orientations } from "./carried_shapes.ts";
+import { CarriedShapeMeshes } from "./carried_shape_meshes.ts";
+import type { CarriedShapes, Orientations } from "./carried_shapes.ts";
 import type { Palette } from "./colours.ts";
 import type { Shown } from "./shown.ts";
 import { Spheres, sunDirection } from "./spheres.ts";
@@ -109,6 +110,16 @@ export class Stage {
     this.controls.target.copy(center).add(lift);
     this.controls.minDistance = radius / 20;
     this.controls.maxDistance = radius * 8;
+    this.controls.update();
+  }
+
+  /** The place of the camera, and the place that it looks at. */
+  get cameraPlace(): number[] {
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
+  }
+  lookAs(place: readonly number[]): void {
+    this.camera.position.fromArray(place);
+    this.controls.target.fromArray(place, 3);
     this.controls.update();
   }
 

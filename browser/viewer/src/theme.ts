@@ -1,5 +1,6 @@
 // Dark or bright, on all pages.
-export type Theme = "system" | "dark" | "bright";
+export const themes = ["system", "dark", "bright"] as const;
+export type Theme = (typeof themes)[number];
 
 export const darkQuery = matchMedia("(prefers-color-scheme: dark)");
 export const calmQuery = matchMedia("(prefers-reduced-motion: reduce)");

@@ -1,4 +1,4 @@
-// Trails of fast bodies, with a dot at each place where a loop of 60 Hz would look.
+// Trails of fast bodies, with a square at each place where a loop of 60 Hz would look.
 import {
   BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, LineBasicMaterial, LineSegments, Points, PointsMaterial, type Scene,
 } from "three";
@@ -21,14 +21,14 @@ export class Trails {
   private readonly lines = new LineSegments(new BufferGeometry(),
     new LineBasicMaterial({ vertexColors: true, transparent: true, depthWrite: false }));
   private readonly looks = new Points(new BufferGeometry(),
-    new PointsMaterial({ size: 5, sizeAttenuation: false, transparent: true, depthWrite: false }));
+    new PointsMaterial({ size: 8, sizeAttenuation: false, transparent: true, depthWrite: false }));
   private readonly colour = new Color();
 
   constructor(scene: Scene) {
-    // Round dots.
+    // Hollow squares, which no mark of an event looks like.
     this.looks.material.onBeforeCompile = (shader) => {
       shader.fragmentShader = shader.fragmentShader.replace("#include <clipping_planes_fragment>",
-        "if (length(gl_PointCoord - 0.5) > 0.5) discard;\n#include <clipping_planes_fragment>");
+        "if (max(abs(gl_PointCoord.x - 0.5), abs(gl_PointCoord.y - 0.5)) < 0.28) discard;\n#include <clipping_planes_fragment>");
     };
     for (const object of [this.lines, this.looks]) {
       object.frustumCulled = false;

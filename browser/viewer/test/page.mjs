@@ -79,7 +79,7 @@ export function browserForTests({ given = {}, site, viewport = { width: 900, hei
       if (message.type() === "error") found.complaints.push(message.text());
     });
     if (prepare !== undefined) await page.addInitScript(prepare);
-    const address = where.startsWith("http") ? where : found.address + where;
+    const address = /^(http|file):/.test(where) ? where : found.address + where;
     page.on("request", (request) => {
       const url = request.url();
       if (!url.startsWith(new URL("/", address).href) && !url.startsWith("data:")) found.complaints.push(url);

@@ -62,8 +62,9 @@ async function pictureOf({ scene, bodies, seed = 1, time, theme, overlays = {}, 
     for (const overlay of Object.keys(viewer.settings.overlays)) viewer.settings.overlays[overlay] = overlays[overlay] === true;
     viewer.repaint();
     viewer.restart();
-    viewer.simulation.run(time);
+    viewer.seek(time);
   }, { scene, bodies, seed, time, theme, overlays, colouring });
+  await page.waitForFunction((time) => window.kinesphereViewer.simulation.time === time, time, { timeout: 60_000 });
   const pictures = await page.evaluate(() => window.kinesphereViewer.pictures);
   await page.waitForFunction((count) => window.kinesphereViewer.pictures > count + 3, pictures, { timeout: 60_000 });
   await page.waitForTimeout(300);
@@ -77,6 +78,7 @@ const wide = { width: 1200, height: 800 };
 const pictures = {
   "missed": { scene: "missed", bodies: 160, time: 0.2, theme: "dark" },
   "missed-sideways": { scene: "missed", bodies: 160, time: 0.2, theme: "bright", viewport: { width: 844, height: 390 } },
+  "evidence": { scene: "missed", bodies: 160, time: 0.6, theme: "bright", overlays: { evidence: true } },
   "piston": { scene: "piston", bodies: 151, time: 1, theme: "bright" },
   "paper1-dark": { scene: "paper1", bodies: 500, time: 2, theme: "dark" },
   "paper1-bright": { scene: "paper1", bodies: 500, time: 2, theme: "bright" },

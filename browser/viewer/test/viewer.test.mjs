@@ -157,6 +157,7 @@ test("a broken file, a table and messages are refused with a message, and the sc
 test("a recording is shown to its end", async () => {
   const made = await page.evaluate(() => {
     const { simulation } = window.kinesphereViewer;
+    window.kinesphereViewer.settings.speed = 0.3;
     simulation.view.startRecording();
     const contacts = simulation.run(simulation.time + 0.5).filter(({ event }) => event.kind === "contact_begin").length;
     const files = new DataTransfer();
@@ -171,6 +172,11 @@ test("a recording is shown to its end", async () => {
     return { contacts: simulation.tally.contacts, time: simulation.time, bodies: simulation.bodyCount };
   });
   assert.deepEqual(shown, made);
+  // It is shown as fast as it was, and the scene in its slow motion afterwards.
+  const speed = () => page.evaluate(() => window.kinesphereViewer.settings.speed);
+  assert.equal(await speed(), 1);
+  await page.keyboard.press("r");
+  assert.equal(await speed(), 0.3);
 });
 
 test("a throw while time stands still counts", async () => {
@@ -199,7 +205,7 @@ test("every scene can be chosen", async () => {
   const names = new Set();
   for (const key of "1234567890-=[") {
     await page.keyboard.press(key);
-    const name = await page.evaluate(() => window.kinesphereViewer.simulation.choice.name);
+    const name = await page.evaluate(() => window.kinesphereViewer.simulation.title);
     await page.waitForFunction(() => window.kinesphereViewer.simulation.time > 0.02, null, { timeout: 60_000 });
     // All switches at once, with each way to colour.
     for (const colouring of ["asked", "safe", "size"]) {
@@ -224,7 +230,7 @@ test("ten thousand bodies find room", async () => {
       Object.assign(viewer.settings, { scene, bodies: 10_000, seed: 1 });
       viewer.setPlaying(false);
       viewer.restart();
-      return { bodies: viewer.simulation.bodyCount, scene: viewer.simulation.choice.name, said: document.querySelector("#message").hidden ? "" :
+      return { bodies: viewer.simulation.bodyCount, scene: viewer.settings.scene, said: document.querySelector("#message").hidden ? "" :
         document.querySelector("#message-text").textContent };
     }, scene);
     assert.deepEqual(found, { bodies: 10_000, scene, said: "" });
@@ -272,7 +278,7 @@ test("rigid bodies are drawn as they turn: parts touch at each contact", async (
       const [kind, { centre, a, b, points = centre === undefined ? [a, b] : [centre], radius }] =
         Object.entries(simulation.shapes().get(body).parts[part])[0];
       kinds.add(kind);
-      const { x, y, z, w } = simulation.orientations().get(body);
+      const [x, y, z, w] = simulation.orientations().get(body);
       const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
       return radius + Math.max(...points.map((point) => {
         // v + 2 q x (q x v + w v)
@@ -302,7 +308,10 @@ test("rigid bodies are drawn as they turn: parts touch at each contact", async (
         if (hit.has(body)) continue;
         steady += 1;
         const speed = Math.hypot(...simulation.view.rotation(body).angularVelocity);
-        jerk = Math.max(jerk, Math.abs(before.get(body).angleTo(now) - 0.02 * speed));
+        // The part of the turn from one quaternion to the other that is no real number is the sine of half its angle.
+        const [[ax, ay, az, aw], [bx, by, bz, bw]] = [before.get(body), now];
+        const sine = Math.hypot(aw * bx - ax * bw - ay * bz + az * by, aw * by - ay * bw - az * bx + ax * bz, aw * bz - az * bw - ax * by + ay * bx);
+        jerk = Math.max(jerk, Math.abs(2 * Math.asin(sine) - 0.02 * speed));
       }
     }
     return { furthest, turning, jerk, steady, kinds: [...kinds].sort(), bodies: simulation.shapes().size, violations: simulation.tally.violations };
@@ -328,13 +337,13 @@ test("a recording of rigid bodies shows their parts, and one can be thrown", asy
     files.items.add(new File([simulation.view.stopRecording()], "turning.rec"));
     window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
     return { passed: simulation.time - before, shapes: [...simulation.shapes()],
-             turned: [...simulation.orientations().values()].map((turn) => turn.toArray()) };
+             turned: [...simulation.orientations().values()] };
   });
   await page.waitForFunction(() => window.kinesphereViewer.simulation.title === "turning.rec");
   const shown = await page.evaluate(() => {
     const { simulation } = window.kinesphereViewer;
     simulation.run(Infinity);
-    return { shapes: [...simulation.shapes()], turned: [...simulation.orientations().values()].map((turn) => turn.toArray()) };
+    return { shapes: [...simulation.shapes()], turned: [...simulation.orientations().values()] };
   });
   assert.deepEqual(shown.shapes, made.shapes);
   made.turned.forEach((turn, body) => turn.forEach((part, k) => assert.ok(Math.abs(part - shown.turned[body][k]) < 1e-9)));

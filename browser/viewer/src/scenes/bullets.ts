@@ -1,5 +1,6 @@
 // Bullets that fly through a thin zone.
 import { Ballistic, type Box, World } from "kinesphere";
+import { cellsPerSide } from "./cells.ts";
 import { MovedScene, type SceneChoice, type Setup } from "./live_scene.ts";
 import { randomNumbers } from "./random_numbers.ts";
 
@@ -10,9 +11,9 @@ export function bullets({ bodies, seed }: SceneChoice): Setup {
   const positions = new Float64Array(3 * bodies);
   const velocities = new Float64Array(3 * bodies);
   // One bullet in each cell of a grid on the left side, so that none overlap at the start.
-  const perSide = Math.ceil(Math.cbrt(bodies));
+  const perSide = cellsPerSide(bodies);
   for (let k = 0; k < bodies; ++k) {
-    const cell = [k % perSide, Math.floor(k / perSide) % perSide, Math.floor(k / perSide ** 2)];
+    const cell = [k % perSide, Math.floor(k / perSide) % perSide, Math.floor(k / (perSide * perSide))];
     const room = [24, 29, 29];
     for (let axis = 0; axis < 3; ++axis) {
       const size = room[axis]! / perSide;

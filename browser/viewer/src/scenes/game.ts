@@ -1,6 +1,7 @@
 // A game at 60 frames a second. It moves its balls as games do, v += g dt, x += v dt, and hands each frame over;
 // contacts come with their exact times between the last two frames, and are answered there.
 import { type BodyId, bounce, type Box, type Event, FrameMotion, type Vec3, World } from "kinesphere";
+import { cellsPerSide } from "./cells.ts";
 import type { LiveScene, SceneChoice, Setup } from "./live_scene.ts";
 import { randomNumbers } from "./random_numbers.ts";
 
@@ -56,13 +57,13 @@ class GameLoop implements LiveScene {
 
 export function game({ bodies, seed }: SceneChoice): Setup {
   const random = randomNumbers(seed);
-  const perSide = Math.ceil(Math.cbrt(bodies));
+  const perSide = cellsPerSide(bodies);
   const pitch = (room.upper[0]! - room.lower[0]!) / perSide;
   const radius = Math.min(0.25, 0.35 * pitch);
   const positions = new Float64Array(3 * bodies);
   const velocities = new Float64Array(3 * bodies);
   for (let k = 0; k < bodies; ++k) {
-    const cell = [k % perSide, Math.floor(k / perSide) % perSide, Math.floor(k / perSide ** 2)];
+    const cell = [k % perSide, Math.floor(k / perSide) % perSide, Math.floor(k / (perSide * perSide))];
     for (let axis = 0; axis < 3; ++axis) {
       positions[3 * k + axis] = (cell[axis]! + 0.5) * pitch;
       velocities[3 * k + axis] = fastest * (2 * random() - 1) / Math.sqrt(3);

@@ -17,11 +17,13 @@ export interface SceneAbout {
   bodies: number;
   /** Initial speed, in simulated seconds per second. */
   speed: number;
+  /** True if it shows what a loop misses. */
+  evidence?: true;
 }
 
 export const scenes: readonly SceneAbout[] = [
-  { name: "missed", title: "What 60 Hz misses", bodies: 160, speed: 0.1,
-    about: "Slow motion. A loop of 60 Hz looks at the dots alone, and misses each red contact. Kinesphere finds all." },
+  { name: "missed", title: "What 60 Hz misses", bodies: 160, speed: 0.1, evidence: true,
+    about: "Slow motion. A loop of 60 Hz looks at the squares alone, and misses each contact with a cross. Kinesphere finds all." },
   { name: "paper1", title: "Random forces", bodies: 500, speed: 2,
     about: "Sizes 1 to 100, pushed by forces that nobody knows in advance: only their limits are promised." },
   { name: "paper2", title: "Strong forces, from rest", bodies: 500, speed: 1,
@@ -32,7 +34,7 @@ export const scenes: readonly SceneAbout[] = [
     about: "Space repeats on all axes: what leaves on one side comes in on the other." },
   { name: "rain", title: "Rain", bodies: 500, speed: 1, about: "Drops fall, and bounce off the floor." },
   { name: "pile", title: "Pile", bodies: 300, speed: 1, about: "Spheres fall on a heap, and lose speed in each contact." },
-  { name: "bullets", title: "Bullets through a thin zone", bodies: 120, speed: 0.1,
+  { name: "bullets", title: "Bullets through a thin zone", bodies: 120, speed: 0.1, evidence: true,
     about: "The zone is 0.05 thick. A loop of 60 Hz overlooks most flights through it; here each is reported." },
   { name: "drones", title: "Drones with alarms", bodies: 60, speed: 2,
     about: "They report where they are with errors of a metre. Two that may be within 20 m are warned, and climb or sink; at 6 m there is an alarm." },

@@ -1,5 +1,6 @@
 // Small fast bodies among large slow ones: most of their contacts lie between two looks of a loop of 60 Hz.
 import { Ballistic, type Box, World } from "kinesphere";
+import { cellsPerSide } from "./cells.ts";
 import { MovedScene, type SceneChoice, type Setup } from "./live_scene.ts";
 import { randomNumbers } from "./random_numbers.ts";
 
@@ -13,9 +14,9 @@ export function missed({ bodies, seed }: SceneChoice): Setup {
   const velocities = new Float64Array(3 * bodies);
   const radii = new Float64Array(bodies);
   // One body in each cell of a grid, so that none overlap at the start.
-  const perSide = Math.ceil(Math.cbrt(bodies));
+  const perSide = cellsPerSide(bodies);
   for (let body = 0; body < bodies; ++body) {
-    const cell = [body % perSide, Math.floor(body / perSide) % perSide, Math.floor(body / perSide ** 2)];
+    const cell = [body % perSide, Math.floor(body / perSide) % perSide, Math.floor(body / (perSide * perSide))];
     const sizes = [0, 1, 2].map((axis) => box.upper[axis]! / perSide);
     radii[body] = Math.min(isFast(body) ? 0.16 : 0.6 + 0.6 * random(), 0.3 * Math.min(...sizes));
     const direction = randomDirection(random);
@@ -30,14 +31,16 @@ export function missed({ bodies, seed }: SceneChoice): Setup {
   const motion = new Ballistic({ positions, velocities });
   world.addMotion(motion, radii);
   // Large bodies are heavy, so that those that are fast stay so.
-  const masses = radii.map((radius) => radius ** 3);
+  const masses = radii.map((radius) => radius * radius * radius);
   const trails = Array.from({ length: bodies }, (_, body) => body).filter(isFast);
   return { scene: new MovedScene(world, motion, { restitution: 1, masses }), radii, trails };
 }
 
+/** Returns a unit vector. Sums, products and roots are rounded alike in all browsers, sines and powers are not. */
 function randomDirection(random: () => number): [number, number, number] {
-  const z = 2 * random() - 1;
-  const turn = 2 * Math.PI * random();
-  const aside = Math.sqrt(1 - z * z);
-  return [aside * Math.cos(turn), aside * Math.sin(turn), z];
+  for (;;) {
+    const [x, y, z] = [2 * random() - 1, 2 * random() - 1, 2 * random() - 1];
+    const length = Math.sqrt(x * x + y * y + z * z);
+    if (length > 0.1 && length <= 1) return [x / length, y / length, z / length];
+  }
 }

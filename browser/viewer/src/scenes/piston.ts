@@ -1,5 +1,6 @@
 // A gas between a wall and a piston, which is a moving shape: the world knows how strongly it may accelerate, no more.
 import { type BodyId, bounce, type Box, type Event, type ProbeFunction, type Vec3, World } from "kinesphere";
+import { cellsPerSide } from "./cells.ts";
 import type { LiveScene, SceneChoice, Setup } from "./live_scene.ts";
 import { randomNumbers } from "./random_numbers.ts";
 
@@ -59,13 +60,13 @@ export function piston({ bodies, seed }: SceneChoice): Setup {
   const random = randomNumbers(seed);
   const world = new World({ box: room, contacts: "impacts", zenoInterval: 1e-4 });
   const balls = bodies - 1;
-  const perSide = Math.ceil(Math.cbrt(balls));
+  const perSide = cellsPerSide(balls);
   // Below the lowest place of the piston.
   const sizes = [10 / perSide, 10 / perSide, 6.5 / perSide];
   const radius = Math.min(0.35, 0.4 * sizes[2]!);
   const thrown = new Float64Array(7 * balls);
   for (let ball = 0; ball < balls; ++ball) {
-    const cell = [ball % perSide, Math.floor(ball / perSide) % perSide, Math.floor(ball / perSide ** 2)];
+    const cell = [ball % perSide, Math.floor(ball / perSide) % perSide, Math.floor(ball / (perSide * perSide))];
     const position = [0, 1, 2].map((axis) => (cell[axis]! + 0.5) * sizes[axis]!) as [number, number, number];
     const velocity = position.map(() => 8 * (2 * random() - 1)) as [number, number, number];
     thrown.set([0, ...position, ...velocity], 7 * ball);

@@ -1,5 +1,6 @@
 // Rigid bodies in a box: dumbbells, rods, jacks, crates and octahedra, which turn each other.
 import { Ballistic, type BodyId, BodyMap, type Box, type Event, type RigidPart, type Vec3, World } from "kinesphere";
+import { cellsPerSide } from "./cells.ts";
 import type { LiveScene, SceneChoice, Setup } from "./live_scene.ts";
 import { randomNumbers } from "./random_numbers.ts";
 
@@ -63,12 +64,12 @@ class Tumbling implements LiveScene {
 
 export function rigidBodies({ bodies: count, seed }: SceneChoice): Setup {
   const random = randomNumbers(seed);
-  const perSide = Math.ceil(Math.cbrt(count));
+  const perSide = cellsPerSide(count);
   const pitch = box.upper[0]! / perSide;
   const positions = new Float64Array(3 * count);
   const velocities = new Float64Array(3 * count);
   for (let body = 0; body < count; ++body) {
-    [body % perSide, Math.floor(body / perSide) % perSide, Math.floor(body / perSide ** 2)].forEach((cell, axis) => {
+    [body % perSide, Math.floor(body / perSide) % perSide, Math.floor(body / (perSide * perSide))].forEach((cell, axis) => {
       positions[3 * body + axis] = (cell + 0.5) * pitch;
       velocities[3 * body + axis] = 4 * (2 * random() - 1);
     });
@@ -80,7 +81,7 @@ export function rigidBodies({ bodies: count, seed }: SceneChoice): Setup {
   for (let body = 0; body < count; ++body) {
     const { parts, inertia } = kinds[Math.floor(kinds.length * random())]!;
     const orientation = Array.from({ length: 4 }, () => 2 * random() - 1);
-    const length = Math.hypot(...orientation);
+    const length = Math.sqrt(orientation.reduce((sum, part) => sum + part * part, 0));
     // All keep their angular velocities between contacts, since nothing spins a dumbbell or a rod about itself.
     bodies.addRigidBody(world, flight, body, parts, { inertia, orientation: orientation.map((part) => part / length) });
   }

@@ -1,0 +1,12 @@
+// The index of the search is larger than all else that a page loads. It is fetched once somebody searches: the theme takes
+// it from this promise.
+var __search = {
+  index: new Promise((resolve) => {
+    const wanted = new URLSearchParams(location.search).has("q");
+    const base = new URL("..", document.currentScript.src);
+    const fetchIndex = () => resolve(fetch(new URL("search/search_index.json", base)).then((response) => response.json()));
+    const isSearch = ({ target }) => target.matches?.("[data-md-component='search-query'], [for='__search'], #__search");
+    if (wanted) fetchIndex();
+    else for (const kind of ["focusin", "change"]) addEventListener(kind, (event) => { if (isSearch(event)) fetchIndex(); });
+  }),
+};
