@@ -356,3 +356,36 @@ ks_status ks_world_set_sensor_class(ks_world world, ks_body_id body, int32_t sen
     return of.change(id, {.sensor_class = sensor_class_of(call, sensor_class)});
   });
 }
+
+ks_status ks_world_set_pair_state(ks_world world, ks_body_id first, ks_body_id second, int32_t state) {
+  return changing(__func__, world, [&](WorldObject& object) {
+    object.world().set_pair_state(id_of(first), id_of(second), state).value();
+  });
+}
+
+ks_status ks_world_pair_state(ks_world world, ks_body_id first, ks_body_id second, int32_t* state) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    require_pointer(call, state, "state");
+    *state = object.world().pair_state(id_of(first), id_of(second)).value();
+  });
+}
+
+ks_status ks_world_turn_back(ks_world world, const ks_event* crossing) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_pointer(call, crossing, "crossing");
+    object.world().turn_back(event_of(call, *crossing)).value();
+  });
+}
+
+ks_status ks_world_schedule(ks_world world, double time, uint64_t user_data, double period) {
+  return changing(__func__, world, [&](WorldObject& object) {
+    object.world().schedule({.time = time, .user_data = user_data, .period = period}).value();
+  });
+}
+
+ks_status ks_world_unschedule(ks_world world, uint64_t user_data, size_t* count) {
+  return changing(__func__, world, [&](WorldObject& object) {
+    const std::size_t removed = object.world().unschedule(user_data).value();
+    if (count != nullptr) *count = removed;
+  });
+}

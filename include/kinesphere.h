@@ -504,6 +504,21 @@ KS_API ks_status ks_world_set_sensor(ks_world world, int32_t sensor_class, const
                                      size_t count, uint64_t mask);
 KS_API ks_status ks_world_set_sensor_class(ks_world world, ks_body_id body, int32_t sensor_class);
 
+// States of pairs, and timers.
+/// Gives two bodies a state, a number of the caller's own that their events have, until it is set to 0 or one
+/// of the two is removed.
+KS_API ks_status ks_world_set_pair_state(ks_world world, ks_body_id first, ks_body_id second, int32_t state);
+/// Returns the state of two bodies; 0 if it was never set.
+KS_API ks_status ks_world_pair_state(ks_world world, ks_body_id first, ks_body_id second, int32_t* state);
+/// To be called at a KS_EVENT_SENSOR_ENTER or KS_EVENT_SENSOR_LEAVE: velocities of the caller have turned the
+/// two back there, so they have not crossed the distance. The event comes again if they do.
+KS_API ks_status ks_world_turn_back(ks_world world, const ks_event* crossing);
+/// Schedules a KS_EVENT_TIMER at a time that has not passed, and, if the period (time, >= 0) is not 0, again
+/// after each period.
+KS_API ks_status ks_world_schedule(ks_world world, double time, uint64_t user_data, double period);
+/// Removes all timers with these data. `count` may be NULL: how many there were.
+KS_API ks_status ks_world_unschedule(ks_world world, uint64_t user_data, size_t* count);
+
 // What a world knows.
 
 /// What the world knows of a body (BodyView in kinesphere/world.hpp).
@@ -621,7 +636,10 @@ enum {
   /// The gap of two bodies that were within a sensor distance has grown beyond it.
   KS_EVENT_SENSOR_LEAVE = 8,
   /// A body that slept is awake again.
-  KS_EVENT_WOKE = 9
+  KS_EVENT_WOKE = 9,
+  /// A timer of the caller's own, after all other events of its time. It names no body, and its
+  /// first_user_data is that of the timer.
+  KS_EVENT_TIMER = 10
 };
 
 /// The walls of the box of a world. One of KS_WALL_...
@@ -655,8 +673,9 @@ typedef struct ks_event {
   uint32_t struct_size;
   ks_event_kind kind;
   double time;
-  ks_body_id first;  ///< The body of the event or, for a pair, the body with the smaller id.
-  /// The other body of a pair; no body for walls, bound violations and bodies that woke.
+  /// The body of the event or, for a pair, the body with the smaller id; no body for timers.
+  ks_body_id first;
+  /// The other body of a pair; no body for walls, bound violations, timers and bodies that woke.
   ks_body_id second;
   ks_wall wall;  ///< The wall of a wall event.
   /// One of the two touched another body less than the Zeno interval ago: a response should take no energy
@@ -671,7 +690,7 @@ typedef struct ks_event {
   ks_senses senses;         ///< Of sensors: the body or bodies that sense the other one.
   ks_traits first_traits;   ///< sum of KS_TRAIT_...
   ks_traits second_traits;  ///< None for a wall.
-  uint32_t reserved;        ///< 0
+  int32_t pair_state;       ///< The state that the two of a pair were given; 0 for all others.
   /// At `time`; of a static body one point of its shape. In periodic space the two are nearest images.
   ks_state first_state;
   ks_state second_state;

@@ -19,6 +19,7 @@ constexpr void each_event_field(Visit&& visit, Records&... records) {
   visit("senses", records.senses...);
   visit("first_traits", records.first_traits...);
   visit("second_traits", records.second_traits...);
+  visit("pair_state", records.pair_state...);
   visit("first_state", records.first_state...);
   visit("second_state", records.second_state...);
   visit("point", records.point...);
@@ -213,6 +214,7 @@ constexpr To make_event(const From& from, const Convert& convert) {
       .senses = convert(from.senses),
       .first_traits = convert(from.first_traits),
       .second_traits = convert(from.second_traits),
+      .pair_state = convert(from.pair_state),
       .first_state = convert(from.first_state),
       .second_state = convert(from.second_state),
       .point = convert(from.point),

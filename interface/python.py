@@ -46,6 +46,7 @@ plain_columns = {
     "double": ("f8", "double", 8),
     "uint64_t": ("u8", "std::uint64_t", 8),
     "uint32_t": ("u4", "std::uint32_t", 4),
+    "int32_t": ("i4", "std::int32_t", 4),
     "ks_bool": ("?", "bool", 1),
     "ks_body_id": ("i8", "std::int64_t", 8),
 }
@@ -167,7 +168,7 @@ def properties_of(interface: Interface, record: Record) -> list[str]:
                 for flag, bit in flags
             ]
         # pybind11 makes numbers of them itself.
-        is_number = one.type.name in ("double", "uint64_t", "uint32_t", "ks_bool", "ks_traits")
+        is_number = one.type.name in ("double", "uint64_t", "uint32_t", "int32_t", "ks_bool", "ks_traits")
         for python, member, comment in parts:
             value = f"from.{member}" if is_number else f"object_of_field(from.{member})"
             lines += [f'  visit("{python}", [](const {name}& from) {{ return {value}; }},']
@@ -357,6 +358,7 @@ stub_types = {
     "double": "float",
     "uint64_t": "int",
     "uint32_t": "int",
+    "int32_t": "int",
     "ks_bool": "bool",
     "ks_vec3": "Doubles",
 }

@@ -244,6 +244,28 @@ KINESPHERE_EXPORT(world_set_sensor_class)
 bool world_set_sensor_class(World* world, double body, int sensor_class) {
   return is_good(world->change(body_of(body), {.sensor_class = static_cast<SensorClass>(sensor_class)}));
 }
+KINESPHERE_EXPORT(world_set_pair_state)
+bool world_set_pair_state(World* world, double first, double second, int state) {
+  return is_good(world->set_pair_state(body_of(first), body_of(second), state));
+}
+KINESPHERE_EXPORT(world_pair_state) bool world_pair_state(World* world, double first, double second) {
+  const auto state = world->pair_state(body_of(first), body_of(second));
+  if (state) answer().assign({static_cast<double>(*state)});
+  return is_good(state);
+}
+KINESPHERE_EXPORT(world_turn_back) bool world_turn_back(World* world, const double* event) {
+  return is_good(world->turn_back(event_at(event)));
+}
+KINESPHERE_EXPORT(world_schedule)
+bool world_schedule(World* world, double time, double user_data, double period) {
+  return is_good(
+      world->schedule({.time = time, .user_data = static_cast<std::uint64_t>(user_data), .period = period}));
+}
+KINESPHERE_EXPORT(world_unschedule) bool world_unschedule(World* world, double user_data) {
+  const auto removed = world->unschedule(static_cast<std::uint64_t>(user_data));
+  if (removed) answer().assign({static_cast<double>(*removed)});
+  return is_good(removed);
+}
 KINESPHERE_EXPORT(world_set_sensor)
 bool world_set_sensor(World* world, int sensor_class, std::size_t count, const double* distances,
                       double mask) {

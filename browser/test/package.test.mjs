@@ -418,6 +418,32 @@ test("zones, fixed shapes and sensors tell", () => {
   assert.ok(seen.some(([, other]) => other === zone) && ball === 0);
 });
 
+test("timers, states of pairs, and two that are turned back", () => {
+  const world = new World();
+  const motion = new Ballistic({ positions: [0, 0, 0, 6, 0, 0], velocities: [1, 0, 0, -1, 0, 0] });
+  const [first, second] = world.addMotion(motion, 1);
+  world.setSensor(0, [2]);
+  world.setPairState(first, second, -5);
+  assert.equal(world.pairState(second, first), -5);
+  world.schedule(0.25, 7, 0.5);
+  const seen = [];
+  for (const event of world.events(10, motion)) {
+    seen.push([event.kind, event.time, event.firstUserData]);
+    if (event.kind === "timer" && event.time > 0.5) assert.equal(world.unschedule(7), 1);
+    if (event.kind !== "sensor_enter") continue;
+    assert.equal(event.pairState, -5);
+    for (const [body, velocity] of [[first, [-1, 0, 0]], [second, [1, 0, 0]]]) {
+      motion.setVelocity(body, event.time, velocity);
+      world.setVelocity(body, velocity);
+    }
+    world.turnBack(event);
+  }
+  assert.deepEqual(seen.slice(0, 2), [["timer", 0.25, 7], ["timer", 0.75, 7]]);
+  assert.deepEqual(seen.slice(2).map(([kind]) => kind), ["sensor_enter"]);
+  refuses(() => world.schedule(1), "time_backwards", "time");
+  assert.throws(() => world.setPairState(first, second, 0.5), /state must be a whole number/);
+});
+
 test("bodies bounce off what is fixed", () => {
   const world = new World();
   const motion = new Ballistic({ positions: [0, 0, 5], velocities: [0, 0, -1] });

@@ -66,6 +66,9 @@ namespace Kinesphere
         SensorLeave = 8,
         /// <summary>A body that slept is awake again.</summary>
         Woke = 9,
+        /// <summary>A timer of the caller's own, after all other events of its time. It names no body, and its
+        /// FirstUserData is that of the timer.</summary>
+        Timer = 10,
     }
 
     /// <summary>The walls of the box of a world.</summary>
@@ -410,9 +413,9 @@ namespace Kinesphere
         uint structSize;
         public EventKind Kind;
         public double Time;
-        /// <summary>The body of the event or, for a pair, the body with the smaller id.</summary>
+        /// <summary>The body of the event or, for a pair, the body with the smaller id; no body for timers.</summary>
         public BodyId First;
-        /// <summary>The other body of a pair; no body for walls, bound violations and bodies that woke.</summary>
+        /// <summary>The other body of a pair; no body for walls, bound violations, timers and bodies that woke.</summary>
         public BodyId Second;
         /// <summary>The wall of a wall event.</summary>
         public Wall Wall;
@@ -424,7 +427,8 @@ namespace Kinesphere
         public Traits FirstTraits;
         /// <summary>None for a wall.</summary>
         public Traits SecondTraits;
-        uint reserved;
+        /// <summary>The state that the two of a pair were given; 0 for all others.</summary>
+        public int PairState;
         /// <summary>At `time`; of a static body one point of its shape. In periodic space the two are nearest
         /// images.</summary>
         public State FirstState;

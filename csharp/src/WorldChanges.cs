@@ -98,6 +98,39 @@ namespace Kinesphere
             Check(Native.ks_world_set_sensor_class(handle, body, sensorClass));
         }
 
+        /// <summary>Gives two bodies a state, a number of the caller's own that their events have, until it is set to 0 or
+        /// one of the two is removed.</summary>
+        public void SetPairState(BodyId first, BodyId second, int state)
+        {
+            Check(Native.ks_world_set_pair_state(handle, first, second, state));
+        }
+
+        public int PairState(BodyId first, BodyId second)
+        {
+            int state;
+            Check(Native.ks_world_pair_state(handle, first, second, out state));
+            return state;
+        }
+
+        /// <summary>To be called at a SensorEnter or SensorLeave: velocities of the caller have turned the two back there, so
+        /// they have not crossed the distance. The event comes again if they do.</summary>
+        public void TurnBack(Event crossing) { Check(Native.ks_world_turn_back(handle, ref crossing)); }
+
+        /// <summary>Schedules an event Timer at a time that has not passed, and, if the period is not 0, again after each
+        /// period.</summary>
+        public void Schedule(double time, ulong userData = 0, double period = 0)
+        {
+            Check(Native.ks_world_schedule(handle, time, userData, period));
+        }
+
+        /// <summary>Removes all timers with these data. Returns how many there were.</summary>
+        public int Unschedule(ulong userData)
+        {
+            UIntPtr count;
+            Check(Native.ks_world_unschedule(handle, userData, out count));
+            return (int)count;
+        }
+
         /// <summary>Sets a predicate for pairs whose filters let them touch; null removes it. Clones share it. An exception
         /// passes through the call that asked, which has gone on as if the two might touch.</summary>
         public void SetPairFilter(PairFilter filter)

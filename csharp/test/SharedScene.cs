@@ -193,6 +193,14 @@ static class SharedScene
             world.SetSensorClass(ids[0], 1);
             world.SetMotionLimits(ids[0], new MotionLimits { AccelerationLimit = 5 });
             world.Reserve(10);
+            world.SetPairState(ids[0], ids[1], -4);
+            Require(world.PairState(ids[1], ids[0]) == -4, "the state of a pair");
+            world.Schedule(world.Time + 1, 6);
+            world.Schedule(world.Time + 0.5, 8, 0.5);
+            Require(world.Unschedule(8) == 1, "a timer that is gone");
+            var rung = world.Events(world.Time + 2).Last();
+            Require(rung.Kind == EventKind.Timer && rung.FirstUserData == 6, "a timer");
+            RequireStatus("out_of_range", () => world.TurnBack(met));
             var view = world.Body(ids[0]);
             Require(view.Enabled && !view.IsStatic && view.Definition.UserData == 7 && view.Definition.Mass == 3, "a body");
             Require(!view.Definition.Solid && view.Definition.SensorClass == 1 && view.Definition.AccelerationLimit == 5, "its limits");

@@ -28,6 +28,10 @@ class EventKind(Named):
     """The gap of two bodies that were within a sensor distance has grown beyond it."""
     woke = 8
     """A body that slept is awake again."""
+    timer = 9
+    """A timer of the caller's own, after all other events of its time. It names None, and its first_user_data
+    is that of the timer.
+    """
 
 
 class Wall(Named):

@@ -535,6 +535,58 @@ categories are sensed. Cost: O(n).)")
           py::arg("bodies"), py::arg("sensor_class"),
           "These bodies have the sensor of this class from now on; see set_sensor().")
       .def(
+          "set_pair_state",
+          [](WorldHandle& handle, const py::object& first, const py::object& second, std::int32_t state) {
+            const auto turn = handle.take("set_pair_state");
+            require(handle.world.set_pair_state(id_of(first, {"set_pair_state", "first"}),
+                                                id_of(second, {"set_pair_state", "second"}), state));
+            end_call(handle);
+          },
+          py::arg("first"), py::arg("second"), py::arg("state"),
+          R"(Gives two bodies a state, a number of yours that their events have (Event.pair_state), as for a bond.
+
+It stays until it is set to 0 or one of the two is removed.)")
+      .def(
+          "pair_state",
+          [](WorldHandle& handle, const py::object& first, const py::object& second) {
+            const auto turn = handle.take("pair_state");
+            return handle.world
+                .pair_state(id_of(first, {"pair_state", "first"}), id_of(second, {"pair_state", "second"}))
+                .value();
+          },
+          py::arg("first"), py::arg("second"), "The state of two bodies; 0 if it was never set.")
+      .def(
+          "turn_back",
+          [](WorldHandle& handle, const Event& crossing) {
+            const auto turn = handle.take("turn_back");
+            require(handle.world.turn_back(crossing));
+            end_call(handle);
+          },
+          py::arg("crossing"),
+          R"(At a sensor_enter or sensor_leave: your velocities have turned the two back, so they have not crossed.
+
+They stay on their side of the sensor distance; the event comes again if they do cross it.)")
+      .def(
+          "schedule",
+          [](WorldHandle& handle, double time, std::uint64_t user_data, double period) {
+            const auto turn = handle.take("schedule");
+            require(handle.world.schedule({.time = time, .user_data = user_data, .period = period}));
+            end_call(handle);
+          },
+          py::arg("time"), py::arg("user_data") = 0, py::arg("period") = 0.0,
+          R"(Schedules an event of kind timer at this time, after all others of it: first_user_data is user_data.
+
+With a period (time, > 0) it comes again after each.)")
+      .def(
+          "unschedule",
+          [](WorldHandle& handle, std::uint64_t user_data) {
+            const auto turn = handle.take("unschedule");
+            const std::size_t removed = handle.world.unschedule(user_data).value();
+            end_call(handle);
+            return removed;
+          },
+          py::arg("user_data"), "Removes all timers with these data. Returns how many there were.")
+      .def(
           "set_user_data",
           [](WorldHandle& handle, const py::object& bodies, const py::object& data) {
             const std::vector<std::uint64_t> each = each_whole_of(

@@ -211,6 +211,33 @@ resting_speed (length / time) bodies come to rest as settle() has them.)")
       .def("__reduce__", [](const py::object& self) {
         return py::make_tuple(self.get_type(), self.cast<const Bouncing&>().arguments());
       });
+  py::class_<StepPotential>(
+      module, "StepPotential",
+      R"(A ready-made response for World.run(): pairs whose potential energy changes in steps with their gap.
+
+distances (length, ascending): gaps between surfaces at which it changes; energies: those of pairs nearer than
+each distance, but not than the one before; outside: beyond the last one, infinite for a bond. Give bodies the
+sensor of the distances: world.set_sensor(0, potential.distances). Pairs gain or lose what their energy changes
+by, or are turned back where they have too little. Contacts bounce with the restitution.)")
+      .def(py::init([](const WorldHandle& handle, const py::object& distances, const py::object& energies,
+                       double outside, double restitution) {
+             const auto all = [](const py::object& given, const Argument& argument) {
+               const Numbers numbers(given, argument);
+               return each_of(given, argument, numbers.dimensions() == 0 ? 1 : numbers.length(0));
+             };
+             return StepPotential::create({.distances = all(distances, {"StepPotential", "distances"}),
+                                           .energies = all(energies, {"StepPotential", "energies"}),
+                                           .outside = outside,
+                                           .restitution = restitution},
+                                          handle.world.definition())
+                 .value();
+           }),
+           py::arg("world"), py::arg("distances"), py::arg("energies"), py::kw_only(),
+           py::arg("outside") = 0.0, py::arg("restitution") = 1.0)
+      .def_property_readonly("distances", [](const StepPotential& of) { return of.definition().distances; })
+      .def_property_readonly("energies", [](const StepPotential& of) { return of.definition().energies; })
+      .def("energy", &StepPotential::energy, py::arg("gap"),
+           "The potential energy of a pair with this gap (length).");
 }
 
 }  // namespace kinesphere::python

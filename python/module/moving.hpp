@@ -13,6 +13,7 @@
 #include "kinesphere/probe.hpp"
 #include "kinesphere/response.hpp"
 #include "kinesphere/run.hpp"
+#include "kinesphere/step_potential.hpp"
 #include "motions.hpp"
 
 namespace kinesphere::python {

@@ -27,6 +27,8 @@ struct EventRecord {
   bool already_touching;
   std::uint8_t senses;
   std::array<std::uint8_t, 3> unused_2;
+  std::int32_t pair_state;
+  std::array<std::uint8_t, 4> unused_3;
   Vec3 first_position;
   Vec3 first_velocity;
   Vec3 second_position;
@@ -57,7 +59,7 @@ struct EventRecord {
   bool second_is_sleeping;
   std::array<std::uint8_t, 2> unused_at_end;
 };
-static_assert(sizeof(EventRecord) == 376);
+static_assert(sizeof(EventRecord) == 384);
 inline constexpr Field event_fields[] = {
     {"kind", "u1", offsetof(EventRecord, kind)},
     {"time", "f8", offsetof(EventRecord, time)},
@@ -68,6 +70,7 @@ inline constexpr Field event_fields[] = {
     {"jammed", "?", offsetof(EventRecord, jammed)},
     {"already_touching", "?", offsetof(EventRecord, already_touching)},
     {"senses", "u1", offsetof(EventRecord, senses)},
+    {"pair_state", "i4", offsetof(EventRecord, pair_state)},
     {"first_position", "3f8", offsetof(EventRecord, first_position)},
     {"first_velocity", "3f8", offsetof(EventRecord, first_velocity)},
     {"second_position", "3f8", offsetof(EventRecord, second_position)},
@@ -108,6 +111,7 @@ inline EventRecord record_of(const Event& from) {
   to.jammed = from.jammed;
   to.already_touching = from.already_touching;
   to.senses = static_cast<std::uint8_t>(from.senses);
+  to.pair_state = from.pair_state;
   to.first_position = from.first_state.position;
   to.first_velocity = from.first_state.velocity;
   to.second_position = from.second_state.position;
@@ -149,6 +153,7 @@ inline Event event_of(const EventRecord& from) {
   to.jammed = from.jammed;
   to.already_touching = from.already_touching;
   to.senses = static_cast<decltype(to.senses)>(from.senses);
+  to.pair_state = from.pair_state;
   to.first_state.position = from.first_position;
   to.first_state.velocity = from.first_velocity;
   to.second_state.position = from.second_position;
@@ -400,9 +405,9 @@ void each_event_property(const Visit& visit) {
   visit("time", [](const Event& from) { return from.time; },
         "");
   visit("first", [](const Event& from) { return object_of_field(from.first); },
-        "The body of the event or, for a pair, the body with the smaller id.");
+        "The body of the event or, for a pair, the body with the smaller id; None for timers.");
   visit("second", [](const Event& from) { return object_of_field(from.second); },
-        "The other body of a pair; None for walls, bound violations and bodies that woke.");
+        "The other body of a pair; None for walls, bound violations, timers and bodies that woke.");
   visit("wall", [](const Event& from) { return object_of_field(from.wall); },
         "The wall of a wall event.");
   visit("repeated", [](const Event& from) { return from.repeated; },
@@ -425,6 +430,8 @@ void each_event_property(const Visit& visit) {
         "The body is not solid: it touches no other body.");
   visit("second_is_sleeping", [](const Event& from) { return from.second_traits.is_sleeping; },
         "The body sleeps and stays asleep: contacts wake their bodies.");
+  visit("pair_state", [](const Event& from) { return from.pair_state; },
+        "The state that the two of a pair were given; 0 for all others.");
   visit("first_position", [](const Event& from) { return object_of_field(from.first_state.position); },
         "At `time`; of a static body one point of its shape. In periodic space the two are nearest images.");
   visit("first_velocity", [](const Event& from) { return object_of_field(from.first_state.velocity); },

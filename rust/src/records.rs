@@ -93,6 +93,9 @@ pub enum EventKind {
     SensorLeave = 8,
     /// A body that slept is awake again.
     Woke = 9,
+    /// A timer of the caller's own, after all other events of its time. It names no body, and its first_user_data is
+    /// that of the timer.
+    Timer = 10,
 }
 
 impl EventKind {
@@ -108,6 +111,7 @@ impl EventKind {
             7 => EventKind::SensorEnter,
             8 => EventKind::SensorLeave,
             9 => EventKind::Woke,
+            10 => EventKind::Timer,
             _ => return None,
         })
     }
@@ -552,9 +556,9 @@ impl BusyBody {
 pub struct Event {
     pub kind: EventKind,
     pub time: f64,
-    /// The body of the event or, for a pair, the body with the smaller id.
-    pub first: BodyId,
-    /// The other body of a pair; no body for walls, bound violations and bodies that woke.
+    /// The body of the event or, for a pair, the body with the smaller id; no body for timers.
+    pub first: Option<BodyId>,
+    /// The other body of a pair; no body for walls, bound violations, timers and bodies that woke.
     pub second: Option<BodyId>,
     /// The wall of a wall event.
     pub wall: Option<Wall>,
@@ -581,6 +585,8 @@ pub struct Event {
     pub second_is_zone: bool,
     /// The body sleeps and stays asleep: contacts wake their bodies.
     pub second_is_sleeping: bool,
+    /// The state that the two of a pair were given; 0 for all others.
+    pub pair_state: i32,
     /// At `time`; of a static body one point of its shape. In periodic space the two are nearest images.
     pub first_state: State,
     pub second_state: State,
@@ -628,7 +634,7 @@ impl Event {
         Some(Event {
             kind: EventKind::of(raw.kind)?,
             time: raw.time,
-            first: raw.first,
+            first: raw.first.some(),
             second: raw.second.some(),
             wall: Wall::of(raw.wall),
             repeated: raw.repeated != 0,
@@ -642,6 +648,7 @@ impl Event {
             second_is_static: raw.second_traits & sys::KS_TRAIT_STATIC != 0,
             second_is_zone: raw.second_traits & sys::KS_TRAIT_ZONE != 0,
             second_is_sleeping: raw.second_traits & sys::KS_TRAIT_SLEEPING != 0,
+            pair_state: raw.pair_state,
             first_state: raw.first_state,
             second_state: raw.second_state,
             point: raw.point,

@@ -76,6 +76,7 @@ pub const KS_EVENT_ZENO_GUARD: i32 = 6;
 pub const KS_EVENT_SENSOR_ENTER: i32 = 7;
 pub const KS_EVENT_SENSOR_LEAVE: i32 = 8;
 pub const KS_EVENT_WOKE: i32 = 9;
+pub const KS_EVENT_TIMER: i32 = 10;
 pub const KS_WALL_NONE: i32 = 0;
 pub const KS_WALL_X_LOWER: i32 = 1;
 pub const KS_WALL_X_UPPER: i32 = 2;
@@ -347,7 +348,7 @@ pub struct ks_event {
     pub senses: u32,
     pub first_traits: u32,
     pub second_traits: u32,
-    pub reserved: u32,
+    pub pair_state: i32,
     pub first_state: State,
     pub second_state: State,
     pub point: Vec3,
@@ -782,6 +783,11 @@ extern "C" {
     pub fn ks_world_set_solid(world: ks_world, body: BodyId, solid: i32) -> ks_status;
     pub fn ks_world_set_sensor(world: ks_world, sensor_class: i32, distances: *const f64, count: usize, mask: u64) -> ks_status;
     pub fn ks_world_set_sensor_class(world: ks_world, body: BodyId, sensor_class: i32) -> ks_status;
+    pub fn ks_world_set_pair_state(world: ks_world, first: BodyId, second: BodyId, state: i32) -> ks_status;
+    pub fn ks_world_pair_state(world: ks_world, first: BodyId, second: BodyId, state: *mut i32) -> ks_status;
+    pub fn ks_world_turn_back(world: ks_world, crossing: *const ks_event) -> ks_status;
+    pub fn ks_world_schedule(world: ks_world, time: f64, user_data: u64, period: f64) -> ks_status;
+    pub fn ks_world_unschedule(world: ks_world, user_data: u64, count: *mut usize) -> ks_status;
     pub fn ks_world_time(world: ks_world, time: *mut f64) -> ks_status;
     pub fn ks_world_size(world: ks_world, bodies: *mut usize) -> ks_status;
     pub fn ks_world_contains(world: ks_world, body: BodyId, contains: *mut i32) -> ks_status;

@@ -439,6 +439,32 @@ impl World {
         self.check(unsafe { sys::ks_world_set_sensor_class(self.handle, body, sensor_class.into()) })
     }
 
+    /// Gives two bodies a state, a number of the caller's own that their events have, until it is set to 0 or one of
+    /// the two is removed.
+    pub fn set_pair_state(&mut self, first: BodyId, second: BodyId, state: i32) -> Result<()> {
+        self.check(unsafe { sys::ks_world_set_pair_state(self.handle, first, second, state) })
+    }
+    pub fn pair_state(&self, first: BodyId, second: BodyId) -> Result<i32> {
+        let mut state = 0;
+        self.check(unsafe { sys::ks_world_pair_state(self.handle, first, second, &mut state) })?;
+        Ok(state)
+    }
+    /// To be called at a `SensorEnter` or `SensorLeave`: velocities of the caller have turned the two back there, so
+    /// they have not crossed the distance. The event comes again if they do.
+    pub fn turn_back(&mut self, crossing: &Event) -> Result<()> {
+        self.check(unsafe { sys::ks_world_turn_back(self.handle, crossing.raw()) })
+    }
+    /// Schedules an event `Timer` at a time that has not passed, and, if the period is not 0, again after each period.
+    pub fn schedule(&mut self, time: f64, user_data: u64, period: f64) -> Result<()> {
+        self.check(unsafe { sys::ks_world_schedule(self.handle, time, user_data, period) })
+    }
+    /// Removes all timers with these data. Returns how many there were.
+    pub fn unschedule(&mut self, user_data: u64) -> Result<usize> {
+        let mut count = 0;
+        self.check(unsafe { sys::ks_world_unschedule(self.handle, user_data, &mut count) })?;
+        Ok(count)
+    }
+
     pub fn time(&self) -> f64 {
         let mut time = 0.0;
         unsafe { sys::ks_world_time(self.handle, &mut time) };

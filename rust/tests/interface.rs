@@ -35,6 +35,21 @@ fn two_balls_meet() {
 }
 
 #[test]
+fn timers_come_and_pairs_are_turned_back() {
+    let (mut world, [first, second], probe) = two_balls();
+    world.set_pair_state(first, second, -5).unwrap();
+    assert_eq!(world.pair_state(second, first).unwrap(), -5);
+    world.schedule(0.25, 7, 0.5).unwrap();
+    let event = world.advance(20.0, &probe).unwrap().unwrap();
+    assert_eq!((event.kind, event.time, event.first_user_data), (EventKind::Timer, 0.25, 7));
+    assert_eq!(world.unschedule(7).unwrap(), 1);
+    let event = world.advance(20.0, &probe).unwrap().unwrap();
+    assert_eq!((event.kind, event.pair_state), (EventKind::ContactBegin, -5));
+    assert!(world.turn_back(&event).is_err());
+    assert!(world.schedule(0.0, 0, 0.0).is_err());
+}
+
+#[test]
 fn a_ball_meets_a_moving_shape() {
     // A plate rises at 2 towards a ball that falls at 1, from a gap of 2.5.
     let mut world = World::new(&WorldDefinition::default()).unwrap();

@@ -88,6 +88,47 @@ static void contacts_and_velocities(void) {
   CHECK_OK(ks_world_destroy(world));
 }
 
+/// Two that come within a sensor distance are turned back there: they do not leave. Timers come in between.
+static void timers_and_states_of_pairs(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  const ks_body_id first = add_ball(world, &f, vec3(0, 0, 0), vec3(1, 0, 0));
+  const ks_body_id second = add_ball(world, &f, vec3(6, 0, 0), vec3(-1, 0, 0));
+  const double distance = 2;
+  CHECK_OK(ks_world_set_sensor(world, 0, &distance, 1, UINT64_MAX));
+  CHECK_OK(ks_world_set_pair_state(world, first, second, -5));
+  int32_t state;
+  CHECK_OK(ks_world_pair_state(world, second, first, &state));
+  CHECK(state == -5);
+  CHECK_OK(ks_world_schedule(world, 0.25, 7, 0.5));
+  ks_event event = next_event(world, 20, &f);
+  CHECK(event.kind == KS_EVENT_TIMER && event.time == 0.25 && event.first_user_data == 7);
+  CHECK(ks_is_no_body(event.first) && ks_is_no_body(event.second));
+  event = next_event(world, 20, &f);
+  CHECK(event.kind == KS_EVENT_TIMER && event.time == 0.75);
+  size_t count;
+  CHECK_OK(ks_world_unschedule(world, 7, &count));
+  CHECK(count == 1);
+  event = next_event(world, 20, &f);
+  CHECK(event.kind == KS_EVENT_SENSOR_ENTER && fabs(event.time - 1) < 1e-5 && event.pair_state == -5);
+  const ks_body_id both[2] = {first, second};
+  const ks_vec3 velocities[2] = {event.second_state.velocity, event.first_state.velocity};
+  f.start[0] = event.first_state;
+  f.start[1] = event.second_state;
+  f.start[0].velocity = velocities[0];
+  f.start[1].velocity = velocities[1];
+  f.since[0] = f.since[1] = event.time;
+  CHECK_OK(ks_world_set_velocities(world, both, velocities, 2));
+  CHECK_OK(ks_world_turn_back(world, &event));
+  ks_event none = ks_new_event();
+  CHECK(ks_world_turn_back(world, &none) == KS_ERROR_OUT_OF_RANGE);
+  CHECK(ks_world_schedule(world, 0.5, 0, 0) == KS_ERROR_TIME_BACKWARDS);
+  event = next_event(world, 20, &f);
+  CHECK(event.kind == KS_EVENT_NONE);
+  CHECK_OK(ks_world_destroy(world));
+}
+
 static void zones_sensors_and_filters(void) {
   flight f;
   memset(&f, 0, sizeof f);
@@ -997,6 +1038,7 @@ static void responses(void) {
 
 int main(void) {
   contacts_and_velocities();
+  timers_and_states_of_pairs();
   zones_sensors_and_filters();
   meshes();
   moving_shapes();

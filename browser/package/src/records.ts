@@ -9,7 +9,7 @@ import { type BodyId, type State, type Vec3, vector } from "./state.js";
 export type TrackId = number;
 
 export const eventKinds = ["bound_violation", "contact_begin", "contact_end", "wall_begin", "wall_end", "zeno_guard",
-  "sensor_enter", "sensor_leave", "woke"] as const;
+  "sensor_enter", "sensor_leave", "woke", "timer"] as const;
 /** Kinds of events, in the order of their delivery within one instant. */
 export type EventKind = (typeof eventKinds)[number];
 
@@ -64,11 +64,11 @@ const senses = ["neither", "first", "second", "both"] as const;
 
 /** @internal Places in the table of a record, and its size. */
 export const eventAt = { kind: 0, time: 1, first: 2, second: 3, wall: 4, repeated: 5, jammed: 6, alreadyTouching: 7,
-  senses: 8, firstTraits: 9, secondTraits: 10, firstState: 11, secondState: 17, point: 23, normal: 26, gap: 29,
-  approachSpeed: 30, positionExcess: 31, velocityExcess: 32, distance: 33, firstUserData: 34, secondUserData: 35,
-  firstMass: 36, secondMass: 37, firstPart: 38, secondPart: 39, firstAngularVelocity: 40, secondAngularVelocity: 43,
-  firstSpinGain: 46, secondSpinGain: 49, accelerationLimit: 52 } as const;
-/** @internal */ export const eventSize = 53;
+  senses: 8, firstTraits: 9, secondTraits: 10, pairState: 11, firstState: 12, secondState: 18, point: 24, normal: 27,
+  gap: 30, approachSpeed: 31, positionExcess: 32, velocityExcess: 33, distance: 34, firstUserData: 35, secondUserData:
+  36, firstMass: 37, secondMass: 38, firstPart: 39, secondPart: 40, firstAngularVelocity: 41, secondAngularVelocity:
+  44, firstSpinGain: 47, secondSpinGain: 50, accelerationLimit: 53 } as const;
+/** @internal */ export const eventSize = 54;
 
 /** The fields of an event, read from numbers that never change. */
 export class EventFields {
@@ -77,9 +77,9 @@ export class EventFields {
 
   get kind(): EventKind { return eventKinds[this.numbers[0]!]!; }
   get time(): number { return this.numbers[1]!; }
-  /** The body of the event or, for a pair, the body with the smaller id. */
-  get first(): BodyId { return this.numbers[2]!; }
-  /** The other body of a pair; null for walls, bound violations and bodies that woke. */
+  /** The body of the event or, for a pair, the body with the smaller id; null for timers. */
+  get first(): BodyId | null { return this.numbers[2]! < 0 ? null : this.numbers[2]!; }
+  /** The other body of a pair; null for walls, bound violations, timers and bodies that woke. */
   get second(): BodyId | null { return this.numbers[3]! < 0 ? null : this.numbers[3]!; }
   /** The wall of a wall event. */
   get wall(): Wall | null { return wallOf(this.numbers[4]!); }
@@ -96,41 +96,43 @@ export class EventFields {
   get firstTraits(): BodyTraits { return traitsOf(this.numbers[9]!); }
   /** None for a wall. */
   get secondTraits(): BodyTraits { return traitsOf(this.numbers[10]!); }
+  /** The state that the two of a pair were given; 0 for all others. */
+  get pairState(): number { return this.numbers[11]!; }
   /** At `time`; of a static body one point of its shape. In periodic space the two are nearest images. */
-  get firstState(): State { return this.state(11); }
-  get secondState(): State { return this.state(17); }
+  get firstState(): State { return this.state(12); }
+  get secondState(): State { return this.state(18); }
   /** The middle of the gap between the two surfaces. */
-  get point(): Float64Array { return this.numbers.subarray(23, 26); }
+  get point(): Float64Array { return this.numbers.subarray(24, 27); }
   /** Unit vector from `first` towards `second`, or towards the wall. */
-  get normal(): Float64Array { return this.numbers.subarray(26, 29); }
+  get normal(): Float64Array { return this.numbers.subarray(27, 30); }
   /** Distance between the surfaces (length); negative when they overlap. */
-  get gap(): number { return this.numbers[29]!; }
+  get gap(): number { return this.numbers[30]!; }
   /** Speed at which the gap closes (length / time); negative when it opens. */
-  get approachSpeed(): number { return this.numbers[30]!; }
+  get approachSpeed(): number { return this.numbers[31]!; }
   /** Of a bound violation: how far the reported position lies outside the bound (length). */
-  get positionExcess(): number { return this.numbers[31]!; }
+  get positionExcess(): number { return this.numbers[32]!; }
   /** Of a bound violation: by how much the velocity changed more than promised (length / time). */
-  get velocityExcess(): number { return this.numbers[32]!; }
+  get velocityExcess(): number { return this.numbers[33]!; }
   /** Of a sensor: the sensor distance that was crossed (length). */
-  get distance(): number { return this.numbers[33]!; }
+  get distance(): number { return this.numbers[34]!; }
   /** What the definition of the body gave. */
-  get firstUserData(): number { return this.numbers[34]!; }
-  get secondUserData(): number { return this.numbers[35]!; }
+  get firstUserData(): number { return this.numbers[35]!; }
+  get secondUserData(): number { return this.numbers[36]!; }
   /** Of the body; infinite for a static body. */
-  get firstMass(): number { return this.numbers[36]!; }
+  get firstMass(): number { return this.numbers[37]!; }
   /** Of the body; infinite for a static body and for a wall. */
-  get secondMass(): number { return this.numbers[37]!; }
+  get secondMass(): number { return this.numbers[38]!; }
   /** Of a rigid body: the number of the part at the contact; of a mesh: that of the triangle; 0 for all others. */
-  get firstPart(): number { return this.numbers[38]!; }
-  get secondPart(): number { return this.numbers[39]!; }
+  get firstPart(): number { return this.numbers[39]!; }
+  get secondPart(): number { return this.numbers[40]!; }
   /** Of a rigid body (radians / time); zero for all others. */
-  get firstAngularVelocity(): Float64Array { return this.numbers.subarray(40, 43); }
-  get secondAngularVelocity(): Float64Array { return this.numbers.subarray(43, 46); }
+  get firstAngularVelocity(): Float64Array { return this.numbers.subarray(41, 44); }
+  get secondAngularVelocity(): Float64Array { return this.numbers.subarray(44, 47); }
   /** Change of the angular velocity of a rigid body by a unit impulse along the normal (radians / (mass length)). */
-  get firstSpinGain(): Float64Array { return this.numbers.subarray(46, 49); }
-  get secondSpinGain(): Float64Array { return this.numbers.subarray(49, 52); }
+  get firstSpinGain(): Float64Array { return this.numbers.subarray(47, 50); }
+  get secondSpinGain(): Float64Array { return this.numbers.subarray(50, 53); }
   /** Of a bound violation: the acceleration limit that the body has from now on (length / time^2). */
-  get accelerationLimit(): number { return this.numbers[52]!; }
+  get accelerationLimit(): number { return this.numbers[53]!; }
 
   private state(from: number): State {
     return {

@@ -690,6 +690,44 @@ export class World extends WorldView {
     const number = whole(sensorClass, 255, "sensorClass", "setSensorClass");
     module.require(module.call("world_set_sensor_class", this.address, body, number));
   }
+  /**
+   * Gives two bodies a state, a whole number of the caller's own that their events have, until it is set to 0 or one of
+   * the two is removed.
+   */
+  setPairState(first: BodyId, second: BodyId, state: number): void {
+    const module = theModule();
+    if (!(Number.isInteger(state) && Math.abs(state) < 2 ** 31))
+      throw new RangeError(`setPairState: state must be a whole number of 32 bits, but is ${state}`);
+    module.require(module.call("world_set_pair_state", this.address, first, second, state));
+  }
+  /** Returns the state of two bodies; 0 if it was never set. */
+  pairState(first: BodyId, second: BodyId): number {
+    const module = theModule();
+    module.require(module.call("world_pair_state", this.address, first, second));
+    return module.answer()[0]!;
+  }
+  /**
+   * To be called at a sensor_enter or sensor_leave: velocities of the caller have turned the two back there, so they have
+   * not crossed the distance. The event comes again if they do.
+   */
+  turnBack(crossing: Event): void {
+    const module = theModule();
+    module.with((scratch) => module.require(module.call(
+      "world_turn_back", this.address, scratch.numbers(crossing.numbers))));
+  }
+  /** Schedules an event "timer" at a time that has not passed, and, if the period is not 0, again after each period. */
+  schedule(time: number, userData = 0, period = 0): void {
+    const module = theModule();
+    const data = whole(userData, 2 ** 53, "userData", "schedule");
+    module.require(module.call("world_schedule", this.address, time, data, period));
+  }
+  /** Removes all timers with these data. Returns how many there were. */
+  unschedule(userData: number): number {
+    const module = theModule();
+    const data = whole(userData, 2 ** 53, "userData", "unschedule");
+    module.require(module.call("world_unschedule", this.address, data));
+    return module.answer()[0]!;
+  }
   /** Stores a whole number for the caller: events have it. */
   setUserData(body: BodyId, userData: number): void {
     const module = theModule();

@@ -1,0 +1,73 @@
+"""Timers, states of pairs, and potentials of steps."""
+
+import numpy as np
+import pytest
+
+import kinesphere as ks
+
+
+def head_on(gap: float, speed: float) -> tuple[ks.World, ks.Ballistic]:
+    """Two balls of radius 1/2 and mass 1 that fly towards each other."""
+    start = [[-0.5 - gap / 2, 0, 0], [0.5 + gap / 2, 0, 0]]
+    motion = ks.Ballistic(start, [[speed / 2, 0, 0], [-speed / 2, 0, 0]])
+    world = ks.World(contacts="impacts")
+    world.add_motion(motion, 0.5)
+    return world, motion
+
+
+def test_timers_come_among_other_events() -> None:
+    world, motion = head_on(2.0, 1.0)
+    world.schedule(0.5, user_data=3, period=1.0)
+    world.schedule(9.25)
+    events = world.run(10.0, motion, ks.Bouncing())
+    timers = events.of_kind(ks.EventKind.timer)
+    assert timers["time"].tolist() == [*np.arange(0.5, 9.0), 9.25, 9.5]
+    assert timers["first_user_data"].tolist() == [3] * 9 + [0, 3]
+    assert timers[0].first is None and timers[0].second is None
+    assert world.unschedule(3) == 1 and world.unschedule(3) == 0
+    with pytest.raises(ks.KinesphereError, match="schedule: time must not lie before the current time"):
+        world.schedule(1.0)
+
+
+def test_a_square_well_speeds_up_and_holds_back() -> None:
+    world, motion = head_on(2.0, 1.0)
+    well = ks.StepPotential(world, [0.5], [-1.0])
+    world.set_sensor(0, well.distances)
+    events = world.run(1.6, motion, well)
+    assert [str(event.kind) for event in events] == ["sensor_enter"]
+    speed = np.diff(motion.states([0, 1], 1.6)[1][:, 0])
+    assert abs(speed[0]) == pytest.approx(np.sqrt(5.0), abs=1e-12)
+    assert well.energy(0.4) == -1.0 and well.energy(0.6) == 0.0
+
+    world, motion = head_on(0.2, 1.0)
+    world.set_sensor(0, well.distances)
+    events = world.run(40.0, motion, ks.StepPotential(world, 0.5, -1.0))
+    leaves = events.of_kind(ks.EventKind.sensor_leave)
+    assert len(leaves) == pytest.approx(40, abs=1) and len(world.sensor_overlaps(0)) == 1
+    assert len(events.of_kind(ks.EventKind.sensor_enter)) == 1
+
+
+def test_a_loop_turns_back_and_reads_states_of_pairs() -> None:
+    world, motion = head_on(2.0, 1.0)
+    world.set_sensor(0, [0.5])
+    world.set_pair_state(0, 1, 7)
+    assert world.pair_state(1, 0) == 7
+    seen = []
+    for event in world.events(10.0, motion):
+        seen.append(event)
+        assert event.pair_state == 7
+        swapped = np.array([event.second_velocity, event.first_velocity])
+        motion.set_velocity([0, 1], event.time, swapped)
+        world.set_velocity([0, 1], swapped)
+        world.turn_back(event)
+    assert [str(event.kind) for event in seen] == ["sensor_enter"]
+    with pytest.raises(ks.KinesphereError, match="turn_back: crossing must be of the present time"):
+        world.turn_back(seen[0])
+
+
+def test_a_potential_that_is_none_is_refused() -> None:
+    world = ks.World()
+    with pytest.raises(ks.KinesphereError, match=r"distances\[1\] must be more than"):
+        ks.StepPotential(world, [0.5, 0.4], [1.0, 2.0])
+    with pytest.raises(ks.KinesphereError, match="number of energies"):
+        ks.StepPotential(world, [0.5], [1.0, 2.0])
