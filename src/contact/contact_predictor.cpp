@@ -189,9 +189,9 @@ std::optional<double> ContactPredictor<Partner>::next_check_if_apart() const {
 template <class Partner>
 ContactDecision ContactPredictor<Partner>::decide_turned(double beyond, double approach_speed,
                                                          double error) const {
-  using Change = ContactRule::Change;
   const double onward = threshold_.within ? -approach_speed : approach_speed;
-  if (onward > error) return {.change = threshold_.within ? Change::end : Change::begin};
+  const auto crossed = threshold_.within ? ContactRule::Change::end : ContactRule::Change::begin;
+  if (onward > error) return {.change = crossed};
   const double tolerance = rule_.tolerance(), farther = ContactRule::farther * tolerance;
   const double next =
       threshold_.within
