@@ -504,21 +504,6 @@ KS_API ks_status ks_world_set_sensor(ks_world world, int32_t sensor_class, const
                                      size_t count, uint64_t mask);
 KS_API ks_status ks_world_set_sensor_class(ks_world world, ks_body_id body, int32_t sensor_class);
 
-// States of pairs, and timers.
-/// Gives two bodies a state, a number of the caller's own that their events have, until it is set to 0 or one
-/// of the two is removed.
-KS_API ks_status ks_world_set_pair_state(ks_world world, ks_body_id first, ks_body_id second, int32_t state);
-/// Returns the state of two bodies; 0 if it was never set.
-KS_API ks_status ks_world_pair_state(ks_world world, ks_body_id first, ks_body_id second, int32_t* state);
-/// To be called at a KS_EVENT_SENSOR_ENTER or KS_EVENT_SENSOR_LEAVE: velocities of the caller have turned the
-/// two back there, so they have not crossed the distance. The event comes again if they do.
-KS_API ks_status ks_world_turn_back(ks_world world, const ks_event* crossing);
-/// Schedules a KS_EVENT_TIMER at a time that has not passed, and, if the period (time, >= 0) is not 0, again
-/// after each period.
-KS_API ks_status ks_world_schedule(ks_world world, double time, uint64_t user_data, double period);
-/// Removes all timers with these data. `count` may be NULL: how many there were.
-KS_API ks_status ks_world_unschedule(ks_world world, uint64_t user_data, size_t* count);
-
 // What a world knows.
 
 /// What the world knows of a body (BodyView in kinesphere/world.hpp).
@@ -782,6 +767,21 @@ typedef struct ks_event_hash {
 KS_API ks_status ks_event_hash_add(ks_event_hash* hash, const ks_event* event);
 /// Equal sets of events have equal values.
 KS_API ks_status ks_event_hash_value(const ks_event_hash* hash, uint64_t* value);
+
+// States of pairs, and timers.
+/// Gives two bodies a state, a number of the caller's own that their events have, until it is set to 0 or one
+/// of the two is removed.
+KS_API ks_status ks_world_set_pair_state(ks_world world, ks_body_id first, ks_body_id second, int32_t state);
+/// Returns the state of two bodies; 0 if it was never set.
+KS_API ks_status ks_world_pair_state(ks_world world, ks_body_id first, ks_body_id second, int32_t* state);
+/// To be called at a KS_EVENT_SENSOR_ENTER or KS_EVENT_SENSOR_LEAVE: velocities of the caller have turned the
+/// two back there, so they have not crossed the distance. The event comes again if they do.
+KS_API ks_status ks_world_turn_back(ks_world world, const ks_event* crossing);
+/// Schedules a KS_EVENT_TIMER at a time that has not passed, and, if the period (time, >= 0) is not 0, again
+/// after each period.
+KS_API ks_status ks_world_schedule(ks_world world, double time, uint64_t user_data, double period);
+/// Removes all timers with these data. `count` may be NULL: how many there were.
+KS_API ks_status ks_world_unschedule(ks_world world, uint64_t user_data, size_t* count);
 
 // -----------------------------------------------------------------------------------------------------------
 // Time

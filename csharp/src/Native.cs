@@ -253,16 +253,6 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_world_set_sensor_class(ulong world, BodyId body, int sensorClass);
         [DllImport(library)]
-        public static extern int ks_world_set_pair_state(ulong world, BodyId first, BodyId second, int state);
-        [DllImport(library)]
-        public static extern int ks_world_pair_state(ulong world, BodyId first, BodyId second, out int state);
-        [DllImport(library)]
-        public static extern int ks_world_turn_back(ulong world, ref Event crossing);
-        [DllImport(library)]
-        public static extern int ks_world_schedule(ulong world, double time, ulong userData, double period);
-        [DllImport(library)]
-        public static extern int ks_world_unschedule(ulong world, ulong userData, out UIntPtr count);
-        [DllImport(library)]
         public static extern int ks_world_time(ulong world, out double time);
         [DllImport(library)]
         public static extern int ks_world_size(ulong world, out UIntPtr bodies);
@@ -298,6 +288,16 @@ namespace Kinesphere
         public static extern int ks_event_hash_add(ref EventHash hash, ref Event @event);
         [DllImport(library)]
         public static extern int ks_event_hash_value(ref EventHash hash, out ulong value);
+        [DllImport(library)]
+        public static extern int ks_world_set_pair_state(ulong world, BodyId first, BodyId second, int state);
+        [DllImport(library)]
+        public static extern int ks_world_pair_state(ulong world, BodyId first, BodyId second, out int state);
+        [DllImport(library)]
+        public static extern int ks_world_turn_back(ulong world, ref Event crossing);
+        [DllImport(library)]
+        public static extern int ks_world_schedule(ulong world, double time, ulong userData, double period);
+        [DllImport(library)]
+        public static extern int ks_world_unschedule(ulong world, ulong userData, out UIntPtr count);
         [DllImport(library)]
         public static extern int ks_probe_motions(BodyId* bodies, UIntPtr count, double time, State* states, IntPtr user);
         [DllImport(library)]

@@ -108,6 +108,9 @@ struct Event {
   Senses senses = Senses::neither;
   BodyTraits first_traits{};
   BodyTraits second_traits{};  ///< all false for a wall or no_body
+  /// The state that the caller has given the two bodies of a pair (World::set_pair_state); 0 for all others,
+  /// and where one of the two has been removed.
+  std::int32_t pair_state = 0;
   /// States of the two bodies at `time`. The state is zero for a wall or no_body; for a static body it is
   /// one point of its shape, with zero velocity. On periodic axes the first body is in the primary image,
   /// and the second one in its nearest image, inside the box or not, so that the vector between them is the
@@ -144,9 +147,6 @@ struct Event {
   std::uint32_t second_part = 0;
   Vec3 first_angular_velocity{};
   Vec3 second_angular_velocity{};
-  /// The state that the caller has given the two bodies of a pair (World::set_pair_state); 0 for all others,
-  /// and where one of the two has been removed.
-  std::int32_t pair_state = 0;
   /// Change of the angular velocity of a rigid body by a unit impulse along the normal at the point (radians
   /// / (mass length)), from RigidBody::inertia; zero for all other bodies.
   Vec3 first_spin_gain{};

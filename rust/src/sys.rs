@@ -783,11 +783,6 @@ extern "C" {
     pub fn ks_world_set_solid(world: ks_world, body: BodyId, solid: i32) -> ks_status;
     pub fn ks_world_set_sensor(world: ks_world, sensor_class: i32, distances: *const f64, count: usize, mask: u64) -> ks_status;
     pub fn ks_world_set_sensor_class(world: ks_world, body: BodyId, sensor_class: i32) -> ks_status;
-    pub fn ks_world_set_pair_state(world: ks_world, first: BodyId, second: BodyId, state: i32) -> ks_status;
-    pub fn ks_world_pair_state(world: ks_world, first: BodyId, second: BodyId, state: *mut i32) -> ks_status;
-    pub fn ks_world_turn_back(world: ks_world, crossing: *const ks_event) -> ks_status;
-    pub fn ks_world_schedule(world: ks_world, time: f64, user_data: u64, period: f64) -> ks_status;
-    pub fn ks_world_unschedule(world: ks_world, user_data: u64, count: *mut usize) -> ks_status;
     pub fn ks_world_time(world: ks_world, time: *mut f64) -> ks_status;
     pub fn ks_world_size(world: ks_world, bodies: *mut usize) -> ks_status;
     pub fn ks_world_contains(world: ks_world, body: BodyId, contains: *mut i32) -> ks_status;
@@ -806,6 +801,11 @@ extern "C" {
     pub fn ks_bounce(event: *const ks_event, restitution: f64, resting_speed: f64, response: *mut ks_response) -> ks_status;
     pub fn ks_event_hash_add(hash: *mut ks_event_hash, event: *const ks_event) -> ks_status;
     pub fn ks_event_hash_value(hash: *const ks_event_hash, value: *mut u64) -> ks_status;
+    pub fn ks_world_set_pair_state(world: ks_world, first: BodyId, second: BodyId, state: i32) -> ks_status;
+    pub fn ks_world_pair_state(world: ks_world, first: BodyId, second: BodyId, state: *mut i32) -> ks_status;
+    pub fn ks_world_turn_back(world: ks_world, crossing: *const ks_event) -> ks_status;
+    pub fn ks_world_schedule(world: ks_world, time: f64, user_data: u64, period: f64) -> ks_status;
+    pub fn ks_world_unschedule(world: ks_world, user_data: u64, count: *mut usize) -> ks_status;
     pub fn ks_probe_motions(bodies: *const BodyId, count: usize, time: f64, states: *mut State, user: *mut c_void) -> i32;
     pub fn ks_world_advance(world: ks_world, until: f64, probe: Option<ks_probe>, user: *mut c_void, event: *mut ks_event) -> ks_status;
     pub fn ks_run_definition_init(definition: *mut ks_run_definition, struct_size: u32) -> ks_status;

@@ -27,15 +27,15 @@ void serialize(Some<BodyId> auto& self, auto& archive) {
 
 void serialize(Some<Event> auto& self, auto& archive) {
   auto& [kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_traits,
-         second_traits, first_state, second_state, point, normal, gap, approach_speed, position_excess,
-         velocity_excess, distance, first_user_data, second_user_data, first_mass, second_mass, first_part,
-         second_part, first_angular_velocity, second_angular_velocity, pair_state, first_spin_gain,
-         second_spin_gain, acceleration_limit] = self;
+         second_traits, pair_state, first_state, second_state, point, normal, gap, approach_speed,
+         position_excess, velocity_excess, distance, first_user_data, second_user_data, first_mass,
+         second_mass, first_part, second_part, first_angular_velocity, second_angular_velocity,
+         first_spin_gain, second_spin_gain, acceleration_limit] = self;
   archive(kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_traits,
-          second_traits, first_state, second_state, point, normal, gap, approach_speed, position_excess,
-          velocity_excess, distance, first_user_data, second_user_data, first_mass, second_mass, first_part,
-          second_part, first_angular_velocity, second_angular_velocity, pair_state, first_spin_gain,
-          second_spin_gain, acceleration_limit);
+          second_traits, pair_state, first_state, second_state, point, normal, gap, approach_speed,
+          position_excess, velocity_excess, distance, first_user_data, second_user_data, first_mass,
+          second_mass, first_part, second_part, first_angular_velocity, second_angular_velocity,
+          first_spin_gain, second_spin_gain, acceleration_limit);
 }
 
 /// The hierarchy of the triangles is made anew where a mesh is read. A mesh that Mesh::create() refuses is
