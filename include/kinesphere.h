@@ -658,7 +658,7 @@ typedef struct ks_event {
   uint32_t struct_size;
   ks_event_kind kind;
   double time;
-  /// The body of the event or, for a pair, the body with the smaller id; no body for timers.
+  /// The body of the event or, for a pair, the body with the smaller id. A timer has none.
   ks_body_id first;
   /// The other body of a pair; no body for walls, bound violations, timers and bodies that woke.
   ks_body_id second;

@@ -413,7 +413,7 @@ namespace Kinesphere
         uint structSize;
         public EventKind Kind;
         public double Time;
-        /// <summary>The body of the event or, for a pair, the body with the smaller id; no body for timers.</summary>
+        /// <summary>The body of the event or, for a pair, the body with the smaller id. A timer has none.</summary>
         public BodyId First;
         /// <summary>The other body of a pair; no body for walls, bound violations, timers and bodies that woke.</summary>
         public BodyId Second;

@@ -405,7 +405,7 @@ void each_event_property(const Visit& visit) {
   visit("time", [](const Event& from) { return from.time; },
         "");
   visit("first", [](const Event& from) { return object_of_field(from.first); },
-        "The body of the event or, for a pair, the body with the smaller id; None for timers.");
+        "The body of the event or, for a pair, the body with the smaller id. A timer has none.");
   visit("second", [](const Event& from) { return object_of_field(from.second); },
         "The other body of a pair; None for walls, bound violations, timers and bodies that woke.");
   visit("wall", [](const Event& from) { return object_of_field(from.wall); },

@@ -35,7 +35,7 @@ def test_a_square_well_speeds_up_and_holds_back() -> None:
     world.set_sensor(0, well.distances)
     events = world.run(1.6, motion, well)
     assert [str(event.kind) for event in events] == ["sensor_enter"]
-    speed = np.diff(motion.states([0, 1], 1.6)[1][:, 0])
+    speed = np.diff(motion.states(1.6)[1][:, 0])
     assert abs(speed[0]) == pytest.approx(np.sqrt(5.0), abs=1e-12)
     assert well.energy(0.4) == -1.0 and well.energy(0.6) == 0.0
 

@@ -556,8 +556,8 @@ impl BusyBody {
 pub struct Event {
     pub kind: EventKind,
     pub time: f64,
-    /// The body of the event or, for a pair, the body with the smaller id; no body for timers.
-    pub first: Option<BodyId>,
+    /// The body of the event or, for a pair, the body with the smaller id. A timer has none.
+    pub first: BodyId,
     /// The other body of a pair; no body for walls, bound violations, timers and bodies that woke.
     pub second: Option<BodyId>,
     /// The wall of a wall event.
@@ -634,7 +634,7 @@ impl Event {
         Some(Event {
             kind: EventKind::of(raw.kind)?,
             time: raw.time,
-            first: raw.first.some(),
+            first: raw.first,
             second: raw.second.some(),
             wall: Wall::of(raw.wall),
             repeated: raw.repeated != 0,

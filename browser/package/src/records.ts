@@ -77,8 +77,8 @@ export class EventFields {
 
   get kind(): EventKind { return eventKinds[this.numbers[0]!]!; }
   get time(): number { return this.numbers[1]!; }
-  /** The body of the event or, for a pair, the body with the smaller id; null for timers. */
-  get first(): BodyId | null { return this.numbers[2]! < 0 ? null : this.numbers[2]!; }
+  /** The body of the event or, for a pair, the body with the smaller id. A timer has none. */
+  get first(): BodyId { return this.numbers[2]!; }
   /** The other body of a pair; null for walls, bound violations, timers and bodies that woke. */
   get second(): BodyId | null { return this.numbers[3]! < 0 ? null : this.numbers[3]!; }
   /** The wall of a wall event. */
