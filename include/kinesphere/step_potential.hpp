@@ -29,8 +29,10 @@
 
 namespace kinesphere {
 
+/// A potential of steps between two bodies, and the response that follows from it. Copies are independent.
 class StepPotential {
  public:
+  /// The energy of a pair, as a function of its gap.
   struct Definition {
     /// Gaps between the surfaces of two bodies at which their energy changes (length, > 0), from the nearest
     /// to the farthest.
@@ -48,6 +50,7 @@ class StepPotential {
   /// of the world, for energies that are not as many, not numbers or -infinity, and for the restitution.
   static Result<StepPotential> create(const Definition& potential, const WorldDefinition& world);
 
+  /// Returns what create() was given.
   const Definition& definition() const { return definition_; }
   /// Returns a sensor with the distances of the potential, which the bodies have to have.
   Sensor sensor() const { return {.distances = definition_.distances}; }

@@ -50,8 +50,9 @@ def test_a_square_well_speeds_up_and_holds_back() -> None:
 def test_a_loop_turns_back_and_reads_states_of_pairs() -> None:
     world, motion = head_on(2.0, 1.0)
     world.set_sensor(0, [0.5])
-    world.set_pair_state(0, 1, 7)
-    assert world.pair_state(1, 0) == 7
+    first, second = world.bodies()
+    world.set_pair_state(ks.BodyId(first), ks.BodyId(second), 7)
+    assert world.pair_state(ks.BodyId(second), ks.BodyId(first)) == 7
     seen = []
     for event in world.events(10.0, motion):
         seen.append(event)
