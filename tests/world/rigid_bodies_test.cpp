@@ -870,5 +870,31 @@ TEST(RigidBodies, LieOnAFloorThoughTheBallAroundThemReachesBelow) {
   expect_error(world.add_rigid_body(next), ErrorCode::overlapping, "position", "add_rigid_body", id);
 }
 
+/// Nobody knows how a body has turned that may turn otherwise than it has said: no overlap is certain.
+TEST(RigidBodies, OfUnknownRotationMayBeTeleported) {
+  World world = World::create({.allow_overlap = false}).value();
+  const BodyId rod =
+      world
+          .add_rigid_body({.body = {.position = {-50.0, 0.0, 0.0}},
+                           .parts = {{.a = {-2.0, 0.0, 0.0}, .b = {2.0, 0.0, 0.0}, .radius = 0.1}},
+                           .angular_acceleration_limit = 1.0,
+                           .largest_angular_speed = 10.0})
+          .value();
+  world.add({.radius = 0.5, .position = {1.5, 0.0, 0.0}}).value();
+  const auto rotations = [](std::span<const BodyId> ids, double time, std::span<Rotation> given) {
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      given[k] = {rotation_by({0.0, 0.0, 0.5 * time * time}), {0.0, 0.0, time}};
+  };
+  world.set_rotation_probe(rotations).value();
+  const Probe probe = [&](std::span<const BodyId> ids, double, std::span<State> states) {
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      states[k].position = ids[k] == rod ? Vec3{-50.0, 0.0, 0.0} : Vec3{1.5, 0.0, 0.0};
+  };
+  EXPECT_EQ(world.teleport(rod, {}).error().code, ErrorCode::overlapping);
+  EXPECT_FALSE(world.advance(1.7, probe).value());
+  world.teleport(rod, {}).value();
+  EXPECT_EQ(world.time(), 1.7);
+}
+
 }  // namespace
 }  // namespace kinesphere::rigid_bodies_test
