@@ -255,8 +255,8 @@ class World {
 
   /// Puts the body into another state from the current time on. A static body moves by set_shape(). The
   /// body's next approach to any partner is reported, also in touch. A rigid body whose rotation a
-  /// RotationProbe tells is taken to have turned evenly since its last report: say how it is turned by
-  /// change(). Errors: disabled_body, static_body.
+  /// RotationProbe tells is taken to have turned evenly since its last report: say how it is turned, by
+  /// change(), before. Errors: disabled_body, static_body.
   Result<void> teleport(BodyId body, const State& state);
   /// Returns the error that teleport() would return now, and changes nothing, as check_set_velocity() does.
   /// Cost: O(1); a search if allow_overlap is false.

@@ -201,7 +201,7 @@ Result<void> World::Preconditions::moved(BodyId id, const State& state) const {
   if (body.is_rigid) {
     const RigidRecord& record = engine_->bodies().rigid[body];
     // How it has turned since its last report is not known, and so no overlap is certain.
-    if (!record.keeps_spin() && body.bound.time != engine_->time()) return {};
+    if (!record.keeps_spin() && record.origin_time != engine_->time()) return {};
     return room_for({.body = moved, .parts = record.parts, .rotation = record.at(engine_->time())}, id);
   }
   return body.carries_shape ? no_overlap(MovingShape{moved, engine_->bodies().shapes.of(body)}, id)

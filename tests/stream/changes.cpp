@@ -201,6 +201,13 @@ void Player::nudge() {
 
 void Player::teleport(Thing& thing, const State& to) {
   begin_change("teleport");
+  if (thing.sort == Sort::rigid && thing.spin_limit != 0.0) {
+    // The world does not know how the body has turned until now.
+    const Rotation turned = thing.spin.at(now());
+    if (!world_.change(thing.id, {.rotation = turned})) return;
+    thing.spin = {now(), turned.orientation, thing.spin.axis, thing.spin.speed_at(now())};
+    restarted(thing.id);
+  }
   const auto done = world_.teleport(thing.id, to);
   Thing moved = thing;
   moved.path.since = now();
@@ -212,10 +219,6 @@ void Player::teleport(Thing& thing, const State& to) {
   moved.path.acceleration = thing.path.acceleration;
   thing = moved;
   restarted(thing.id);
-  if (thing.sort != Sort::rigid || thing.spin_limit == 0.0) return;
-  // The world does not know how the body has turned until now.
-  thing.spin = {now(), thing.spin.at(now()).orientation, thing.spin.axis, thing.spin.speed_at(now())};
-  world_.change(thing.id, {.rotation = thing.spin.at(now())}).value();
 }
 
 void Player::set_limits() {

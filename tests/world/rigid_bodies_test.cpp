@@ -888,7 +888,7 @@ TEST(RigidBodies, OfUnknownRotationMayBeTeleported) {
   world.set_rotation_probe(rotations).value();
   const Probe probe = [&](std::span<const BodyId> ids, double, std::span<State> states) {
     for (std::size_t k = 0; k < ids.size(); ++k)
-      states[k].position = ids[k] == rod ? Vec3{-50.0, 0.0, 0.0} : Vec3{1.5, 0.0, 0.0};
+      states[k] = {ids[k] == rod ? Vec3{-50.0, 0.0, 0.0} : Vec3{1.5, 0.0, 0.0}, {}};
   };
   EXPECT_EQ(world.teleport(rod, {}).error().code, ErrorCode::overlapping);
   EXPECT_FALSE(world.advance(1.7, probe).value());
