@@ -129,8 +129,6 @@ void describe_parts(Event& event, const Sphere& first, const Sphere& second) {
   event.point = nearest.point + event.normal * (0.5 * (first.position_error - second.position_error));
   event.first_part = nearest.first_part;
   event.second_part = nearest.second_part;
-  event.first_angular_velocity = first.rotation.angular_velocity;
-  event.second_angular_velocity = second.rotation.angular_velocity;
   event.first_spin_gain = spin_gain_of(first, event);
   event.second_spin_gain = spin_gain_of(second, event);
 }
@@ -141,6 +139,7 @@ void describe_first(Event& event, const Sphere& first) {
   event.first_traits = first.traits;
   event.first_user_data = first.user_data;
   event.first_mass = first.mass;
+  event.first_angular_velocity = first.rotation.angular_velocity;
 }
 
 /// Describes an event between two bodies whose positions are already in the images that meet.
@@ -150,18 +149,15 @@ void describe_as_seen(Event& event, const Sphere& first, const Sphere& second, b
   event.second_traits = second.traits;
   event.second_user_data = second.user_data;
   event.second_mass = second.mass;
+  event.second_angular_velocity = second.rotation.angular_velocity;
   if (first.rigid || second.rigid) {
     describe_parts(event, first, second);
   } else if (!first.shape && !second.shape) {
     describe_spheres(event, first, second);
-    event.first_angular_velocity = first.rotation.angular_velocity;
-    event.second_angular_velocity = second.rotation.angular_velocity;
   } else if (first.shape && second.shape) {
     describe_surfaces(event, first, second, is_flat);
   } else {
     describe_surface(event, first.shape ? second : first, first.shape ? first : second);
-    event.first_angular_velocity = first.rotation.angular_velocity;
-    event.second_angular_velocity = second.rotation.angular_velocity;
   }
   event.approach_speed = approach_speed(event, first.radius_rate + second.radius_rate);
 }
@@ -199,13 +195,11 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
     event.gap = nearest.gap - sphere.position_error;
     event.point = nearest.point + event.normal * (0.5 * nearest.gap);
     event.first_part = nearest.first_part;
-    event.first_angular_velocity = sphere.rotation.angular_velocity;
     event.first_spin_gain = spin_gain_of(sphere, event);
   } else {
     const double distance = dot(inside.normal, sphere.state.position) - inside.offset;
     event.gap = distance - sphere.radius;
     event.point = sphere.state.position + event.normal * distance;
-    event.first_angular_velocity = sphere.rotation.angular_velocity;
   }
   event.approach_speed = approach_speed(event, sphere.radius_rate);
 }

@@ -95,7 +95,7 @@ class ContactGraph {
   }
   /// Returns true if the two touch, sense each other, or have been turned back at a sensor distance.
   bool are_linked(std::uint32_t a, std::uint32_t b) const {
-    return touch(a, b) || overlap(a, b) || pairs_.are_turned(a, b);
+    return touch(a, b) || overlap(a, b) || pairs_.between(a, b).is_turned();
   }
   /// Returns what is remembered of pairs beside.
   const PairNotes& pairs() const { return pairs_; }

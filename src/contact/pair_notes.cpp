@@ -18,18 +18,15 @@ bool PairNotes::has_turned(std::uint32_t body) const {
 }
 
 void PairNotes::set_state(std::uint32_t a, std::uint32_t b, std::int32_t state) {
-  const PairNote* const known = find(a, b);
-  PairNote note = known != nullptr ? *known : PairNote{};
+  PairNote note = between(a, b);
   note.state = state;
-  keep(a, b, note);
+  keep(a, note);
 }
 
 void PairNotes::set_turned(std::uint32_t a, std::uint32_t b, std::optional<double> distance) {
-  const PairNote* const known = find(a, b);
-  if (known == nullptr && !distance) return;
-  PairNote note = known != nullptr ? *known : PairNote{};
+  PairNote note = between(a, b);
   note.turned_at = distance.value_or(-1.0);
-  keep(a, b, note);
+  keep(a, note);
 }
 
 void PairNotes::forget_turns(std::uint32_t body) {
@@ -39,12 +36,13 @@ void PairNotes::forget_turns(std::uint32_t body) {
 
 void PairNotes::forget(std::uint32_t body) {
   const std::vector<PairNote> notes(of(body).begin(), of(body).end());
-  for (const PairNote& note : notes) keep(body, note.partner, PairNote{});
+  for (const PairNote& note : notes) keep(body, {note.partner});
 }
 
-void PairNotes::keep(std::uint32_t a, std::uint32_t b, const PairNote& note) {
-  keep_half(a, {b, note.state, note.turned_at});
-  keep_half(b, {a, note.state, note.turned_at});
+/// Keeps a note of body `a` and its partner with both of them.
+void PairNotes::keep(std::uint32_t a, const PairNote& note) {
+  keep_half(a, note);
+  keep_half(note.partner, {a, note.state, note.turned_at});
 }
 
 void PairNotes::keep_half(std::uint32_t body, const PairNote& note) {

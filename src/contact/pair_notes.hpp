@@ -29,15 +29,10 @@ class PairNotes {
   std::span<const PairNote> of(std::uint32_t body) const {
     return body < lists_.size() ? std::span<const PairNote>(lists_[body]) : std::span<const PairNote>();
   }
-  /// Returns nullptr if nothing is remembered of the two.
-  const PairNote* find(std::uint32_t a, std::uint32_t b) const;
-  std::int32_t state(std::uint32_t a, std::uint32_t b) const {
+  /// Returns what `a` remembers of the two; a note without a state or a turn if that is nothing.
+  PairNote between(std::uint32_t a, std::uint32_t b) const {
     const PairNote* const note = find(a, b);
-    return note != nullptr ? note->state : 0;
-  }
-  bool are_turned(std::uint32_t a, std::uint32_t b) const {
-    const PairNote* const note = find(a, b);
-    return note != nullptr && note->is_turned();
+    return note != nullptr ? *note : PairNote{b};
   }
   bool has_turned(std::uint32_t body) const;
 
@@ -53,7 +48,8 @@ class PairNotes {
   bool is_valid(std::size_t bodies) const;
 
  private:
-  void keep(std::uint32_t a, std::uint32_t b, const PairNote& note);
+  const PairNote* find(std::uint32_t a, std::uint32_t b) const;
+  void keep(std::uint32_t a, const PairNote& note);
   void keep_half(std::uint32_t body, const PairNote& note);
 
   std::vector<std::vector<PairNote>> lists_;  ///< by body, up to the last one that ever had a note

@@ -104,11 +104,7 @@ Bounce bounce(const Event& contact, double first_mass, double second_mass, doubl
 Bounce bounce(const Event& contact, const Roughness& rough) {
   const Vec3& normal = contact.normal;
   const bool is_wall = contact.second == no_body;
-  const auto inverse = [](const BodyTraits& traits, double mass) {
-    return stays(traits) || std::isinf(mass) ? 0.0 : 1.0 / divisible(mass);
-  };
-  const double first = inverse(contact.first_traits, contact.first_mass);
-  const double second = is_wall ? 0.0 : inverse(contact.second_traits, contact.second_mass);
+  const auto [first, second] = inverse_masses(contact, contact.first_mass, contact.second_mass);
   Bounce after{contact.first_state.velocity, contact.second_state.velocity, contact.first_angular_velocity,
                contact.second_angular_velocity};
   if (!(first + second > 0.0) || !(contact.approach_speed > 0.0)) return after;

@@ -16,8 +16,9 @@ namespace kinesphere::core {
 /// that time.
 class Host {
  public:
-  /// Returns those with which the ball is linked: it touches or senses them. They concern it wherever they
-  /// are, until the link ends. The result holds until the next call.
+  /// Returns those with which the ball is linked: it touches or senses them, or has been turned back at
+  /// its sensor distance from them. They concern it wherever they are, until the link ends. The result holds
+  /// until the next call.
   virtual std::span<const std::uint32_t> linked_with(std::uint32_t ball) = 0;
   /// Moves those of `others` that may ever have to do with the ball to the front, in the same order. Returns
   /// their number.

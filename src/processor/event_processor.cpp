@@ -55,8 +55,11 @@ std::optional<Event> EventProcessor::pop() {
   if (!event) return event;
   if (event->second != no_body) {
     if (is_there(event->first) && is_there(event->second))
-      event->pair_state = contacts().pairs().state(bodies().table().number_of(event->first),
-                                                   bodies().table().number_of(event->second));
+      event->pair_state =
+          contacts()
+              .pairs()
+              .between(bodies().table().number_of(event->first), bodies().table().number_of(event->second))
+              .state;
     event->second = bodies().table().tagged(event->second);
   }
   event->first = bodies().table().tagged(event->first);

@@ -49,8 +49,7 @@ double PairCertifier::apart_until(std::uint32_t a, std::uint32_t b) const {
 bool PairCertifier::are_within_in_flight(std::uint32_t a, std::uint32_t b) const {
   if (!bodies().sensors.any()) return false;
   const Body &one = bodies()[a], &other = bodies()[b];
-  const auto is_ball = [](const Body& body) { return !body.is_shaped() && !body.is_static(); };
-  return one.bound.is_exact() && other.bound.is_exact() && is_ball(one) && is_ball(other) &&
+  return one.bound.is_exact() && other.bound.is_exact() && !one.is_shaped() && !other.is_shaped() &&
          one.bound.planned_acceleration == other.bound.planned_acceleration && !bodies().radii.any() &&
          contacts().overlap(a, b) && !contacts().touch(a, b);
 }

@@ -60,12 +60,10 @@ void PairCertifier::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit v
     visit(contacts().contact_threshold(a, b, bodies().wanted_of(a, b)));
   if (!bodies().sensors.any()) return;
   const OverlapRecords::List crossed = contacts().overlaps_of(a, b);
-  const PairNote* const record = contacts().pairs().find(a, b);
+  const double turned_at = contacts().pairs().between(a, b).turned_at;
   const auto sensed = [&](bool within, double distance) {
-    visit(Threshold{.within = within,
-                    .distance = distance,
-                    .sensed = true,
-                    .is_turned = record != nullptr && record->turned_at == distance});
+    visit(Threshold{
+        .within = within, .distance = distance, .sensed = true, .is_turned = turned_at == distance});
   };
   if (const auto next =
           bodies().sensors.next_inward(sensing_of(bodies(), a), sensing_of(bodies(), b), crossed))

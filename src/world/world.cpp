@@ -245,7 +245,7 @@ Result<std::int32_t> World::pair_state(BodyId first, BodyId second) const {
   auto valid = check.known(first);
   if (valid) valid = check.known(second);
   if (!valid) return valid.error();
-  return engine_->contacts().pairs().state(first.index, second.index);
+  return engine_->contacts().pairs().between(first.index, second.index).state;
 }
 
 Result<void> World::turn_back(const Event& crossing) {
