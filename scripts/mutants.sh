@@ -48,6 +48,7 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_
   OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none \
   HWLOC_COMPONENTS=-gl
 # A hang counts as caught.
+export KINESPHERE_ROUNDS=all
 run_test() {
   local command=("$build/tests/$1")
   if [[ $1 == test_distributed ]]; then command=(mpirun -n 3 "$build/tests/distributed/$1"); fi

@@ -2,7 +2,8 @@
 # Sets up what is missing, builds the library, the programs and the Python package, and runs their tests.
 # Usage: test.sh [--all] [arguments of ctest]
 #   --all   also runs the tests with the label long: WebAssembly and its pages, the proofs, a build of the other compiler,
-#           watches over NATS, more seeds, other numbers of ranks. For these alone: test.sh --all -L long
+#           watches over NATS, more seeds and rounds of random tests, other numbers of ranks. For those with the
+#           label alone: test.sh --all -L long
 # KINESPHERE_PRESET chooses another preset than ci, for instance:
 #   KINESPHERE_PRESET=asan scripts/test.sh -R bound
 set -euo pipefail

@@ -83,10 +83,11 @@ class PairTimes {
     entry.second_revision = bodies[entry.second()].revision;
     return entry;
   }
-  /// Returns where a pair is, or where it would be entered.
+  /// Returns where a pair is, or where it would be entered. The highest bits of the product depend on both
+  /// bodies, so all pairs of one body are spread, too.
   std::size_t place_of(std::uint64_t name) const {
     const std::size_t mask = table_.size() - 1;
-    std::size_t place = (name * 0x9E3779B97F4A7C15u >> 20) & mask;
+    std::size_t place = name * 0x9E3779B97F4A7C15u >> (64 - std::countr_zero(table_.size()));
     while (table_[place].pair != name && table_[place].pair != nothing) place = (place + 1) & mask;
     return place;
   }

@@ -4,12 +4,13 @@
 #include <string>
 
 #include "support/bound_checks.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere::meeting_test {
 namespace {
 
 constexpr std::uint64_t seed = 2005;
-constexpr int cases_per_family = 6000;
+const auto cases_per_family = rounds_of<std::uint64_t>(12000);
 double certificate(const PairCase& c) { return earliest_meeting(c.a, c.b, c.from, c.horizon, c.distance); }
 
 exact::Wide truth(const PairCase& c, exact::Wide extra = 0) {

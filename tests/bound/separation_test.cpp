@@ -2,12 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "support/bound_checks.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere::separation_test {
 namespace {
 
 constexpr std::uint64_t seed = 1957;
-constexpr int cases_per_family = 6000;
+const auto cases_per_family = rounds_of<std::uint64_t>(12000);
 double certificate(const PairCase& c) { return earliest_separation(c.a, c.b, c.from, c.horizon, c.distance); }
 
 exact::Wide truth(const PairCase& c, exact::Wide extra = 0) {

@@ -3,6 +3,7 @@
 
 #include "support/bound_checks.hpp"
 #include "support/exact_shapes.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere::shape_certificates_test {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using exact::Wide;
 
 constexpr std::uint64_t seed = 1736;
-constexpr int cases_per_family = 500;
+const auto cases_per_family = rounds_of<std::uint64_t>(1000);
 constexpr int samples = 48;
 template <class Solid>
 struct ShapeCase {

@@ -16,7 +16,7 @@
 #include "number/infinity.hpp"
 #include "support/placed_parts.hpp"
 #include "support/playground.hpp"
-#include "support/scenes_of_each.hpp"
+#include "support/test_size.hpp"
 #include "support/true_shapes.hpp"
 
 namespace kinesphere {

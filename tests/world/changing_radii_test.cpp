@@ -17,7 +17,7 @@
 #include "kinesphere/response.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
-#include "support/scenes_of_each.hpp"
+#include "support/test_size.hpp"
 #include "world/mapped_world.hpp"
 
 namespace kinesphere::changing_radii_test {

@@ -18,7 +18,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 #include "support/random_contacts.hpp"
-#include "support/scenes_of_each.hpp"
+#include "support/test_size.hpp"
 #include "support/true_shapes.hpp"
 #include "world/mapped_world.hpp"
 
@@ -268,7 +268,8 @@ class RandomMeetings : public testing::TestWithParam<ContactScene> {
 
 TEST_P(RandomMeetings, AreReportedWhenTheyHappen) {
   std::size_t begins = 0, with_static = 0;
-  for (int stop = 1; stop <= 300 && !HasFailure(); ++stop) {
+  const int stops = rounds_of(300);
+  for (int stop = 1; stop <= stops && !HasFailure(); ++stop) {
     change();
     for (const auto& [body, shape] : carried) steer(body);
     const double quiet = p.world.certificates().safe_until()->time;
@@ -287,8 +288,8 @@ TEST_P(RandomMeetings, AreReportedWhenTheyHappen) {
     ASSERT_TRUE(is_clean(p.world));
     check_gaps();
   }
-  EXPECT_GT(with_static, 20u);
-  EXPECT_GT(begins, with_static + 5u);
+  EXPECT_GT(with_static, static_cast<std::size_t>(stops) / 15);
+  EXPECT_GT(begins, with_static);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -17,7 +17,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 #include "support/random_contacts.hpp"
-#include "support/scenes_of_each.hpp"
+#include "support/test_size.hpp"
 #include "world/mapped_world.hpp"
 #include "world/surroundings.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "kinesphere/certificates.hpp"
 #include "support/random_contacts.hpp"
+#include "support/test_size.hpp"
 #include "world/surroundings.hpp"
 
 namespace kinesphere::random_surroundings_test {
@@ -160,7 +161,8 @@ class RandomSurroundings : public testing::TestWithParam<ContactScene> {
 
 TEST_P(RandomSurroundings, NothingIsMissed) {
   std::size_t begins = 0;
-  for (int stop = 1; stop <= 1500 && !HasFatalFailure(); ++stop) {
+  const int stops = rounds_of(1500);
+  for (int stop = 1; stop <= stops && !HasFatalFailure(); ++stop) {
     change();
     for (const BodyId ball : balls) steer(ball);
     const double quiet = p.world.certificates().safe_until()->time;
@@ -180,7 +182,7 @@ TEST_P(RandomSurroundings, NothingIsMissed) {
     ASSERT_TRUE(is_clean(p.world));
     check_gaps();
   }
-  EXPECT_GT(begins, 100u);
+  EXPECT_GT(begins, static_cast<std::size_t>(stops) / 15);
   // Time does not crawl: a body far from all changes, or deep in a box, is not rechecked.
   const Counters& counters = p.world.counters();
   EXPECT_LE(counters.pair_checks, 2 * counters.probes);

@@ -11,6 +11,7 @@
 #include "recording/format.hpp"
 #include "recording/step.hpp"
 #include "support/expect_error.hpp"
+#include "support/test_size.hpp"
 #include "world/bustle.hpp"
 
 namespace kinesphere::replay_test {
@@ -322,7 +323,7 @@ TEST(BadRecording, SealedNonsenseIsRefusedOrDivergesOrIsHarmless) {
   const std::size_t steps = 20 + 8 + bustle.world.save().value().size() / 2;
   ASSERT_GT(bytes.size(), steps + 1000);
   int diverged = 0, refused = 0;
-  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+  for (std::uint64_t seed = 0; seed < rounds_of<std::uint64_t>(3000); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     Bytes changed = bytes;
@@ -350,7 +351,7 @@ TEST(BadRecording, SealedNonsenseIsRefusedOrDivergesOrIsHarmless) {
     const auto filter = [](BodyId, BodyId) { return true; };
     ASSERT_TRUE(World::restore(replay->world().save().value(), filter));
   }
-  EXPECT_GT(diverged, 500);
+  EXPECT_GT(diverged, rounds_of(500));
   EXPECT_GT(refused, 50);
 }
 

@@ -20,8 +20,8 @@
 #include "number/infinity.hpp"
 #include "support/expect_error.hpp"
 #include "support/placed_parts.hpp"
-#include "support/scenes_of_each.hpp"
 #include "support/spin.hpp"
+#include "support/test_size.hpp"
 #include "world/surroundings.hpp"
 
 namespace kinesphere::rigid_bodies_test {
@@ -335,7 +335,8 @@ class RandomRigidBodies : public testing::TestWithParam<Kind> {
 
 TEST_P(RandomRigidBodies, AreReportedWheneverTheirPartsTouch) {
   std::size_t begins = 0;
-  for (int stop = 1; stop <= GetParam().stops && !HasFatalFailure(); ++stop) {
+  const int stops = rounds_of(GetParam().stops);
+  for (int stop = 1; stop <= stops && !HasFatalFailure(); ++stop) {
     change();
     steer();
     const double from = p.world.time();
@@ -389,7 +390,7 @@ TEST_P(RandomRigidBodies, AreReportedWheneverTheirPartsTouch) {
       ASSERT_TRUE(is_clean(p.world)) << "stop " << stop;
     }
   }
-  EXPECT_GT(begins, static_cast<std::size_t>(GetParam().stops) / 4);
+  EXPECT_GT(begins, static_cast<std::size_t>(stops) / 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -9,6 +9,7 @@
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 #include "support/sealed_snapshot.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere::snapshot_test {
 namespace {
@@ -349,7 +350,7 @@ TEST(BadSnapshot, SaysWhatIsWrong) {
   EXPECT_TRUE(is_refused(Bytes(1000, std::byte{'x'}), "mark of a world"));
   Bytes newer = bytes;
   newer[8] = std::byte{200};
-  EXPECT_TRUE(is_refused(newer, "format version 31, but is of version 200"));
+  EXPECT_TRUE(is_refused(newer, "format version 32, but is of version 200"));
   Bytes damaged = bytes;
   damaged[bytes.size() / 2] ^= std::byte{1};
   EXPECT_TRUE(is_refused(damaged, "checksum"));
@@ -365,7 +366,7 @@ TEST(BadSnapshot, SealedNonsenseIsRefusedOrHarmless) {
         std::pair(ContactEvents::begin_and_end, Axes{true, true, true}),
         std::pair(ContactEvents::impacts, Axes{true, false, true})}) {
     const Bytes bytes = rich_snapshot(mode, periodic);
-    for (std::uint64_t seed = 0; seed < 6000; ++seed) {
+    for (std::uint64_t seed = 0; seed < rounds_of<std::uint64_t>(6000); ++seed) {
       SCOPED_TRACE("seed " + std::to_string(seed));
       Random random(seed);
       Bytes changed = bytes;
@@ -396,7 +397,7 @@ TEST(BadSnapshot, SealedNonsenseIsRefusedOrHarmless) {
       ASSERT_NO_THROW(use_for_a_while(std::move(*restored), random));
     }
   }
-  EXPECT_GT(accepted, 500) << "the test has nothing to use";
+  EXPECT_GT(accepted, rounds_of(500)) << "the test has nothing to use";
 }
 
 TEST(WrongCalls, AProbeMayNeitherSaveNorClone) {
