@@ -2,12 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "support/bound_checks.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere::bound_test {
 namespace {
 
 constexpr std::uint64_t seed = 1564;
-constexpr int cases_per_family = 4000;
+const auto cases_per_family = rounds_of<std::uint64_t>(8000);
 struct BoxCase {
   Bound bound;
   Box box;

@@ -4,10 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "support/bound_cases.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere {
 
-inline constexpr std::uint64_t cases_per_family = 4000;
+inline const auto cases_per_family = rounds_of<std::uint64_t>(8000);
 
 /// `make(pair, random)` makes a printable case of each random pair.
 template <std::uint64_t seed, auto make>

@@ -14,6 +14,7 @@
 
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere::program::rest_test {
 namespace {
@@ -142,7 +143,7 @@ class Harbour : public ProgramTest {
 };
 
 TEST_F(Harbour, TellsOfAllThatMeetAndOnceOfThoseThatLieThere) {
-  for (const std::uint64_t seed : {1, 2}) {
+  for (std::uint64_t seed = 1; seed <= rounds_of(2u); ++seed) {
     SCOPED_TRACE(fmt::format("seed {}", seed));
     Random random(seed);
     const std::vector<Boat> boats = harbour(random);
