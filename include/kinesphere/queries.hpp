@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -69,6 +70,51 @@ struct QueryOptions {
   friend constexpr bool operator==(const QueryOptions&, const QueryOptions&) = default;
 };
 
+/// A sphere in which to look for bodies (length), except for one.
+struct SphereQuery {
+  Vec3 centre{};
+  double radius = 0.0;
+  BodyId except = no_body;
+
+  friend constexpr bool operator==(const SphereQuery&, const SphereQuery&) = default;
+};
+
+/// A point whose nearest bodies are looked for, except for one.
+struct PointQuery {
+  Vec3 point{};
+  BodyId except = no_body;
+
+  friend constexpr bool operator==(const PointQuery&, const PointQuery&) = default;
+};
+
+/// A ray or, with a radius > 0 (length), the way of a sphere. `direction` may have any length > 0. It passes
+/// through one body, such as the one that casts it.
+struct RayQuery {
+  Vec3 origin{};
+  Vec3 direction{};
+  double length = 0.0;
+  double radius = 0.0;
+  BodyId except = no_body;
+
+  friend constexpr bool operator==(const RayQuery&, const RayQuery&) = default;
+};
+
+/// The results of many queries of a kind: those of query k are lists[k].
+template <class Hit>
+struct HitLists {
+  std::vector<Hit> hits{};          ///< of all queries, one after the other
+  std::vector<std::size_t> ends{};  ///< number of hits up to and with each query
+
+  /// Number of queries.
+  std::size_t size() const { return ends.size(); }
+  std::span<const Hit> operator[](std::size_t query) const {
+    const std::size_t begin = query > 0 ? ends[query - 1] : 0;
+    return std::span(hits).subspan(begin, ends[query] - begin);
+  }
+
+  friend bool operator==(const HitLists&, const HitLists&) = default;
+};
+
 /// What World::queries() returns: the queries of one world, with or without a probe. Each call answers for
 /// the present state of the world. Copies cost little. The world must outlive it and keep its address; so
 /// must a named probe (callback.hpp), whereas a temporary one is owned.
@@ -114,6 +160,25 @@ class [[nodiscard]] World::Queries {
                                            double length, const QueryOptions& options = {},
                                            std::vector<CastHit> storage = {}) const;
 
+  // Many queries at once, as a frame of a game asks them. Each is answered as by the call for one, in the
+  // order given. With a probe, one call of it serves all queries that are open. Workers share the queries,
+  // and change no result; the probe is called in the calling thread alone. Errors: as of the call for one,
+  // with the number of the query in the message, before any is answered; workers_busy if the workers are in
+  // use.
+
+  /// overlapping(), for many spheres.
+  Result<HitLists<OverlapHit>> overlapping_all(std::span<const SphereQuery> spheres,
+                                               const std::optional<Filter>& filter = {},
+                                               Workers* workers = nullptr) const;
+  /// nearest(), for many points.
+  Result<HitLists<NearestHit>> nearest_all(std::span<const PointQuery> points, std::size_t count,
+                                           const std::optional<Filter>& filter = {},
+                                           Workers* workers = nullptr) const;
+  /// ray_cast() or sphere_cast(), for many rays.
+  Result<HitLists<CastHit>> ray_cast_all(std::span<const RayQuery> rays,
+                                         const std::optional<Filter>& filter = {},
+                                         Workers* workers = nullptr) const;
+
   /// Probes those of the bodies whose last report is older than the current time, in one call of the probe,
   /// so that queries and certificates without a probe rest on these reports. Disabled bodies are left out.
   /// Returns true if there were any. Errors: those of a call that names a body; without a probe, null_probe.
@@ -126,6 +191,10 @@ class [[nodiscard]] World::Queries {
   template <class Hit, class Valid, class Ask>
   Result<std::vector<Hit>> answer(std::string_view call, const QueryOptions& options, std::vector<Hit> found,
                                   Valid valid, Ask ask) const;
+  template <class Hit, class Query, class Valid, class Ask>
+  Result<HitLists<Hit>> answer_all(std::string_view call, std::span<const Query> queries,
+                                   const std::optional<Filter>& filter, Workers* workers, Valid valid,
+                                   Ask ask) const;
 
   Facet facet_;
 };

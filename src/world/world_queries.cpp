@@ -1,19 +1,22 @@
 // Spatial queries: checks the calls, and probes if the facet has a probe.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "bodies/validation.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
 #include "kinesphere/queries.hpp"
+#include "parallel/thread_pool.hpp"
 #include "query/queries.hpp"
 #include "world/preconditions.hpp"
 
 namespace kinesphere {
 namespace {
 
-Result<void> check_sphere(const Vec3& centre, double radius, const WorldDefinition& world) {
-  InputCheck check("overlapping");
+Result<void> check_sphere(const Vec3& centre, double radius, const WorldDefinition& world,
+                          std::string_view call) {
+  InputCheck check(call);
   check.within({"centre"}, centre, coordinate_limit(world));
   require_plane(check, {"centre"}, centre, world);
   return require_length(check, "radius", radius, world).result();
@@ -29,8 +32,8 @@ Result<void> check_region(const Box& box, const WorldDefinition& world) {
   return check.result();
 }
 
-Result<void> check_point(const Vec3& point, const WorldDefinition& world) {
-  InputCheck check("nearest");
+Result<void> check_point(const Vec3& point, const WorldDefinition& world, std::string_view call) {
+  InputCheck check(call);
   check.within({"point"}, point, coordinate_limit(world));
   require_plane(check, {"point"}, point, world);
   return check.result();
@@ -71,6 +74,22 @@ bool leaves_open(const OverlapHit& found) { return found.certainty == Certainty:
 bool leaves_open(const NearestHit&) { return true; }
 bool leaves_open(const CastHit&) { return true; }
 
+/// Queries that one worker answers at a stretch: a few microseconds each.
+constexpr std::size_t least_queries = 16;
+
+/// Returns the error of a call for one query, said of one of many.
+Error of_query(Error error, std::size_t query, std::string_view call) {
+  error.message.insert(call.size() + 1, " query " + std::to_string(query) + ",");
+  return error;
+}
+
+/// Where the hits of a query are, among those that its worker has found.
+struct FoundAt {
+  std::size_t worker = 0;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
 }  // namespace
 
 /// Evaluates a query into `found`. With a probe, repeats it after probing the bodies that leave it open,
@@ -99,7 +118,7 @@ Result<std::vector<OverlapHit>> World::Queries::overlapping(const Vec3& centre, 
                                                             std::vector<OverlapHit> storage) const {
   return answer(
       "overlapping", options, std::move(storage),
-      [&](const WorldDefinition& world) { return check_sphere(centre, radius, world); },
+      [&](const WorldDefinition& world) { return check_sphere(centre, radius, world, "overlapping"); },
       [&](const auto& queries, auto& found) { queries.overlapping(centre, radius, found); });
 }
 
@@ -116,7 +135,7 @@ Result<std::vector<NearestHit>> World::Queries::nearest(const Vec3& point, std::
                                                         std::vector<NearestHit> storage) const {
   return answer(
       "nearest", options, std::move(storage),
-      [&](const WorldDefinition& world) { return check_point(point, world); },
+      [&](const WorldDefinition& world) { return check_point(point, world, "nearest"); },
       [&](const auto& queries, auto& found) { queries.nearest(point, count, found); });
 }
 
@@ -144,6 +163,103 @@ Result<std::vector<CastHit>> World::Queries::sphere_cast(const Vec3& origin, dou
       },
       [&](const auto& queries, auto& found) {
         queries.cast({origin, radius, unit(direction), length}, found);
+      });
+}
+
+/// Evaluates many queries, as answer() does one. `valid(query, world)` checks a query, and
+/// `ask(queries, query, found)` answers it.
+template <class Hit, class Query, class Valid, class Ask>
+Result<HitLists<Hit>> World::Queries::answer_all(std::string_view call, std::span<const Query> queries,
+                                                 const std::optional<Filter>& filter, Workers* workers,
+                                                 Valid valid, Ask ask) const {
+  if (auto callable = Preconditions(*facet_.world, call).may_ask(facet_); !callable) return callable.error();
+  const Engine& engine = *facet_.world->engine_;
+  for (std::size_t k = 0; k < queries.size(); ++k)
+    if (const Result<void> fit = valid(queries[k], engine.definition()); !fit)
+      return of_query(fit.error(), k, call);
+  PoolLease lease(workers);
+  if (!lease)
+    return Error{ErrorCode::workers_busy, "workers", no_body,
+                 std::string(call) + ": workers must not be at work elsewhere, but are"};
+
+  std::vector<std::vector<Hit>> found(lease.count());
+  std::vector<FoundAt> places(queries.size());
+  std::vector<std::size_t> open(queries.size());
+  std::iota(open.begin(), open.end(), std::size_t{0});
+  for (;;) {
+    lease.for_each(open.size(), least_queries, [&](std::size_t k, std::size_t worker) {
+      const Query& query = queries[open[k]];
+      const QueryOptions options{.filter = filter, .except = query.except};
+      std::vector<Hit> hits;
+      ask(Engine::Queries(engine, options), query, hits);
+      places[open[k]] = {worker, found[worker].size(), found[worker].size() + hits.size()};
+      found[worker].insert(found[worker].end(), hits.begin(), hits.end());
+    });
+    if (!facet_.probing) break;
+    std::vector<std::uint32_t> asked;
+    std::erase_if(open, [&](std::size_t query) {
+      const std::size_t before = asked.size();
+      const FoundAt& at = places[query];
+      for (std::size_t k = at.begin; k < at.end; ++k)
+        if (const Hit& hit = found[at.worker][k]; leaves_open(hit)) asked.push_back(hit.body.index);
+      return asked.size() == before;
+    });
+    std::sort(asked.begin(), asked.end());
+    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+    const auto probed = facet_.refresh(asked, call);
+    if (!probed) return probed.error();
+    if (!*probed) break;
+  }
+
+  HitLists<Hit> lists;
+  lists.ends.reserve(queries.size());
+  for (const FoundAt& at : places) {
+    const auto begin = found[at.worker].begin();
+    lists.hits.insert(lists.hits.end(), begin + static_cast<std::ptrdiff_t>(at.begin),
+                      begin + static_cast<std::ptrdiff_t>(at.end));
+    lists.ends.push_back(lists.hits.size());
+  }
+  return lists;
+}
+
+Result<HitLists<OverlapHit>> World::Queries::overlapping_all(std::span<const SphereQuery> spheres,
+                                                             const std::optional<Filter>& filter,
+                                                             Workers* workers) const {
+  constexpr std::string_view call = "overlapping_all";
+  return answer_all<OverlapHit>(
+      call, spheres, filter, workers,
+      [=](const SphereQuery& sphere, const WorldDefinition& world) {
+        return check_sphere(sphere.centre, sphere.radius, world, call);
+      },
+      [](const auto& queries, const SphereQuery& sphere, auto& found) {
+        queries.overlapping(sphere.centre, sphere.radius, found);
+      });
+}
+
+Result<HitLists<NearestHit>> World::Queries::nearest_all(std::span<const PointQuery> points,
+                                                         std::size_t count,
+                                                         const std::optional<Filter>& filter,
+                                                         Workers* workers) const {
+  constexpr std::string_view call = "nearest_all";
+  return answer_all<NearestHit>(
+      call, points, filter, workers,
+      [=](const PointQuery& at, const WorldDefinition& world) { return check_point(at.point, world, call); },
+      [=](const auto& queries, const PointQuery& at, auto& found) {
+        queries.nearest(at.point, count, found);
+      });
+}
+
+Result<HitLists<CastHit>> World::Queries::ray_cast_all(std::span<const RayQuery> rays,
+                                                       const std::optional<Filter>& filter,
+                                                       Workers* workers) const {
+  constexpr std::string_view call = "ray_cast_all";
+  return answer_all<CastHit>(
+      call, rays, filter, workers,
+      [=](const RayQuery& ray, const WorldDefinition& world) {
+        return check_ray(ray.origin, ray.radius, ray.direction, ray.length, world, call);
+      },
+      [](const auto& queries, const RayQuery& ray, auto& found) {
+        queries.cast({ray.origin, ray.radius, unit(ray.direction), ray.length}, found);
       });
 }
 

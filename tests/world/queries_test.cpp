@@ -197,6 +197,55 @@ TEST_P(Queries, AgreeWithBruteForce) {
   }
 }
 
+/// Many queries are answered as one after the other is, by any number of workers.
+TEST_P(Queries, ManyAtOnceAreAnsweredAsEach) {
+  Workers workers = Workers::create(3).value();
+  const auto any_body = [&] { return crowd.random.bits() % 2 == 0 ? no_body : crowd.any(); };
+  for (int stop = 1; stop <= 4; ++stop) {
+    std::vector<SphereQuery> spheres;
+    std::vector<PointQuery> points;
+    std::vector<RayQuery> rays;
+    for (int k = 0; k < 60; ++k) {
+      spheres.push_back({crowd.any_point(), 3.0 * crowd.random.uniform(), any_body()});
+      points.push_back({crowd.any_point(), any_body()});
+      rays.push_back({crowd.any_point(), 7.0 * crowd.random.unit_vector(), 12.0 * crowd.random.uniform(),
+                      k % 2 == 0 ? 0.0 : crowd.random.uniform(), any_body()});
+    }
+    const auto filter = stop % 2 == 0 ? std::nullopt : std::optional(Filter{.category = 1, .mask = 1});
+    const auto compare_all = [&](const World::Queries& queries) {
+      const auto within = queries.overlapping_all(spheres, filter).value();
+      const auto nearest = queries.nearest_all(points, 3, filter).value();
+      const auto hit = queries.ray_cast_all(rays, filter).value();
+      EXPECT_TRUE(queries.overlapping_all(spheres, filter, &workers).value() == within);
+      EXPECT_TRUE(queries.nearest_all(points, 3, filter, &workers).value() == nearest);
+      EXPECT_TRUE(queries.ray_cast_all(rays, filter, &workers).value() == hit);
+      ASSERT_EQ(within.size(), spheres.size());
+      for (std::size_t k = 0; k < spheres.size(); ++k) {
+        const auto as_listed = [&](const auto& lists, const auto& one) {
+          EXPECT_TRUE(std::ranges::equal(lists[k], one)) << "query " << k << ", stop " << stop;
+        };
+        as_listed(within, *queries.overlapping(spheres[k].centre, spheres[k].radius,
+                                               {.filter = filter, .except = spheres[k].except}));
+        as_listed(nearest,
+                  *queries.nearest(points[k].point, 3, {.filter = filter, .except = points[k].except}));
+        as_listed(hit, *queries.sphere_cast(rays[k].origin, rays[k].radius, rays[k].direction, rays[k].length,
+                                            {.filter = filter, .except = rays[k].except}));
+      }
+    };
+    compare_all(crowd.world.queries());
+    // All reports that the lists rest on are fresh afterwards, so that none is asked for again.
+    const auto probe = crowd.probe();
+    std::size_t calls = 0;
+    compare_all(crowd.world.queries([&](std::span<const BodyId> ids, double time, std::span<State> states) {
+      ++calls;
+      probe(ids, time, states);
+    }));
+    EXPECT_LE(calls, 9u) << "one call for all queries, or a few";
+    while (const auto event = crowd.advance(-1.0 + 0.2 * stop)) crowd.bounce(*event);
+    for (int k = 0; k < 4; ++k) crowd.change();
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, Queries, crowd_kinds());
 
 TEST(QueryOfAViolatedBound, FindsTheBodyWhereItIsNow) {
@@ -308,7 +357,45 @@ TEST(WrongQueries, AreRefused) {
                  "sphere_cast");
   expect_refusal(p.world.queries().sphere_cast({}, 1.0, {}, 1.0), ErrorCode::out_of_range, "direction",
                  "sphere_cast");
+  const auto queries = p.world.queries(p.probe());
+  const auto refused_second = [&](const auto& result, const std::string& argument, const std::string& call) {
+    expect_refusal(result, ErrorCode::out_of_range, argument, call);
+    EXPECT_EQ(result.error().message.rfind(call + ": query 1, " + argument, 0), 0u) << result.error().message;
+  };
+  refused_second(queries.overlapping_all(std::vector<SphereQuery>{{}, {{}, -1.0}}), "radius",
+                 "overlapping_all");
+  refused_second(queries.nearest_all(std::vector<PointQuery>{{}, {{1e200, 0, 0}}}, 2), "point",
+                 "nearest_all");
+  refused_second(queries.ray_cast_all(std::vector<RayQuery>{{{}, {1, 0, 0}, 1.0}, {{}, {}, 1.0}}),
+                 "direction", "ray_cast_all");
   EXPECT_EQ(p.world.counters().probes, probes);
+}
+
+TEST(ManyQueries, MayBeNone) {
+  Playground p;
+  EXPECT_EQ(p.world.queries().ray_cast_all({})->size(), 0u);
+  p.add({.radius = 1});
+  EXPECT_EQ(p.world.queries(p.probe()).nearest_all({}, 3)->size(), 0u);
+}
+
+TEST(ManyQueries, NeedWorkersThatAreFree) {
+  Playground p, other;
+  p.add({.radius = 1, .velocity = {1, 0, 0}});
+  p.add({.radius = 1, .position = {4, 0, 0}});
+  Workers workers = Workers::create(2).value();
+  std::size_t events = 0;
+  p.world
+      .run(
+          3.0, p.probe(),
+          [&](const Event&) {
+            ++events;
+            const auto busy =
+                other.world.queries().nearest_all(std::vector<PointQuery>{{}}, 1, {}, &workers).error();
+            EXPECT_EQ(busy.code, ErrorCode::workers_busy) << busy.message;
+          },
+          &workers)
+      .value();
+  EXPECT_GT(events, 0u);
 }
 
 /// Returns the least time of several hundred searches for the nearest bodies, on a lattice with so many
