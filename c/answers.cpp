@@ -1,7 +1,12 @@
 // Certified answers: predictions and spatial queries.
-#include "kinesphere/certificates.hpp"
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "convert.hpp"
 
 #include "exchange.hpp"
+#include "kinesphere/certificates.hpp"
 #include "kinesphere/queries.hpp"
 #include "objects.hpp"
 #include "probing.hpp"
@@ -75,6 +80,41 @@ ks_status query(std::string_view call, ks_world world, ks_probe probe, void* use
   return answering(call, world, probe, user, {hits.count, "count"}, answer, [&](const auto& found) {
     write_all(call, found, hits.array, hits.capacity, hits.count, [](const auto& hit) { return c_hit(hit); });
   });
+}
+
+/// Many queries of one call: their bodies left out, their filter, and where their answers go.
+struct Many {
+  const ks_body_id* except;
+  std::size_t queries;
+  const ks_filter* filter;
+  std::size_t* ends;
+  Hits hits;
+
+  std::optional<Filter> chosen() const {
+    return filter != nullptr ? std::optional(filter_of(*filter)) : std::nullopt;
+  }
+  BodyId left_out(std::size_t query) const { return except != nullptr ? id_of(except[query]) : no_body; }
+};
+
+/// Asks answer(world, probe or nothing) for the hits of many queries, each of which made(query) returns.
+template <class Made, class Answer>
+ks_status query_all(std::string_view call, ks_world world, ks_probe probe, void* user, const Target& given,
+                    const Many& many, const Made& made, const Answer& answer) {
+  return answering(
+      call, world, probe, user, {many.hits.count, "count"},
+      [&](auto& of, const auto&... probes) {
+        require_array(call, given.pointer, many.queries, given.argument);
+        require_array(call, many.ends, many.queries, "ends");
+        std::vector<decltype(made(0))> queries;
+        queries.reserve(many.queries);
+        for (std::size_t k = 0; k < many.queries; ++k) queries.push_back(made(k));
+        return answer(of.queries(probes...), queries);
+      },
+      [&](const auto& found) {
+        std::copy(found.ends.begin(), found.ends.end(), many.ends);
+        write_all(call, found.hits, many.hits.array, many.hits.capacity, many.hits.count,
+                  [](const auto& hit) { return c_hit(hit); });
+      });
 }
 
 }  // namespace
@@ -152,4 +192,41 @@ ks_status ks_world_cast(ks_world world, ks_vec3 origin, ks_vec3 direction, doubl
   return query(__func__, world, probe, user, {hits, capacity, count}, [&](auto& of, const auto&... probes) {
     return of.queries(probes...).sphere_cast(vector_of(origin), radius, vector_of(direction), length);
   });
+}
+
+ks_status ks_world_overlapping_all(ks_world world, const ks_sphere* spheres, const ks_body_id* except_ids,
+                                   size_t queries, const ks_filter* filter, ks_probe probe, void* user,
+                                   size_t* ends, ks_hit* hits, size_t capacity, size_t* count) {
+  const Many many{except_ids, queries, filter, ends, {hits, capacity, count}};
+  return query_all(
+      __func__, world, probe, user, {spheres, "spheres"}, many,
+      [&](std::size_t k) {
+        return SphereQuery{vector_of(spheres[k].centre), spheres[k].radius, many.left_out(k)};
+      },
+      [&](const auto& of, const auto& all) { return of.overlapping_all(all, many.chosen()); });
+}
+
+ks_status ks_world_nearest_all(ks_world world, const ks_vec3* points, const ks_body_id* except_ids,
+                               size_t queries, size_t bodies, const ks_filter* filter, ks_probe probe,
+                               void* user, size_t* ends, ks_hit* hits, size_t capacity, size_t* count) {
+  const Many many{except_ids, queries, filter, ends, {hits, capacity, count}};
+  return query_all(
+      __func__, world, probe, user, {points, "points"}, many,
+      [&](std::size_t k) {
+        return PointQuery{vector_of(points[k]), many.left_out(k)};
+      },
+      [&](const auto& of, const auto& all) { return of.nearest_all(all, bodies, many.chosen()); });
+}
+
+ks_status ks_world_cast_all(ks_world world, const ks_ray* rays, const ks_body_id* except_ids, size_t queries,
+                            const ks_filter* filter, ks_probe probe, void* user, size_t* ends, ks_hit* hits,
+                            size_t capacity, size_t* count) {
+  const Many many{except_ids, queries, filter, ends, {hits, capacity, count}};
+  return query_all(
+      __func__, world, probe, user, {rays, "rays"}, many,
+      [&](std::size_t k) {
+        return RayQuery{vector_of(rays[k].origin), vector_of(rays[k].direction), rays[k].length,
+                        rays[k].radius, many.left_out(k)};
+      },
+      [&](const auto& of, const auto& all) { return of.ray_cast_all(all, many.chosen()); });
 }

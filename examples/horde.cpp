@@ -30,19 +30,26 @@ int main() {
               .user_data = walker})
         .value();
 
-  int shots = 0, killed = 0, bites = 0;
+  int shots = 0, killed = 0, bites = 0, seen = 0;
   std::vector<Vec3> wanted;
+  std::vector<RayQuery> rays;
   for (int frame = 0; frame < 60 * 15; ++frame) {
     // Steering: one velocity for each body, in the order of game.ids().
     const Vec3 goal = game.state(player).position;
     wanted.assign(game.velocities().begin(), game.velocities().end());
+    rays.clear();
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       const std::uint64_t kind = game.world().user_data(game.ids()[k]).value();
       const Vec3 way = goal - game.positions()[k];
       if (kind == walker) wanted[k] += (way * (2.0 / (1e-3 + norm(way))) - wanted[k]) * 0.1;
+      if (kind == walker) rays.push_back({game.positions()[k], way, norm(way), 0.0, game.ids()[k]});
       if (kind == hero) wanted[k] = {4 * std::cos(0.01 * frame), 4 * std::sin(0.01 * frame), 0};
     }
     game.set_velocities(wanted).value();
+
+    // All walkers look for the player at once: who stands before others sees it.
+    const auto sights = game.queries().ray_cast_all(rays).value();
+    for (std::size_t k = 0; k < sights.size(); ++k) seen += !sights[k].empty() && sights[k][0].body == player;
 
     const auto near = game.queries().nearest(goal, 1, {.filter = shot, .except = player}).value();
     if (frame % 6 == 0 && !near.empty()) {
@@ -72,7 +79,7 @@ int main() {
       }
     }
   }
-  std::printf("%d shots, %d walkers killed, %d bites; %zu bodies left\n", shots, killed, bites,
-              game.ids().size());
+  std::printf("%d shots, %d walkers killed, %d bites, seen %d times; %zu bodies left\n", shots, killed, bites,
+              seen, game.ids().size());
   return killed > 0 && game.world().counters().count(EventKind::bound_violation) == 0 ? 0 : 1;
 }

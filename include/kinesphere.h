@@ -969,6 +969,38 @@ KS_API ks_status ks_world_cast(ks_world world, ks_vec3 origin, ks_vec3 direction
                                double radius, ks_probe probe, void* user, ks_hit* hits, size_t capacity,
                                size_t* count);
 
+/// A sphere in which to look for bodies (length).
+typedef struct ks_sphere {
+  ks_vec3 centre;
+  double radius;
+} ks_sphere;
+
+/// A ray or, with a radius > 0, the way of a sphere (length). `direction` may have any length > 0.
+typedef struct ks_ray {
+  ks_vec3 origin;
+  ks_vec3 direction;
+  double length;
+  double radius;
+} ks_ray;
+
+// Many queries at once, each answered as by the call for one, without its body in `except_ids` and bodies
+// that a `filter` does not pass; either may be null. With a probe, one call of it serves all that are open.
+// The hits of query k end before hits[ends[k]], those of the first begin at 0; `ends` has room for `queries`.
+
+/// ks_world_overlapping_sphere(), for many spheres.
+KS_API ks_status ks_world_overlapping_all(ks_world world, const ks_sphere* spheres,
+                                          const ks_body_id* except_ids, size_t queries,
+                                          const ks_filter* filter, ks_probe probe, void* user, size_t* ends,
+                                          ks_hit* hits, size_t capacity, size_t* count);
+/// ks_world_nearest(), for many points.
+KS_API ks_status ks_world_nearest_all(ks_world world, const ks_vec3* points, const ks_body_id* except_ids,
+                                      size_t queries, size_t bodies, const ks_filter* filter, ks_probe probe,
+                                      void* user, size_t* ends, ks_hit* hits, size_t capacity, size_t* count);
+/// ks_world_cast(), for many rays.
+KS_API ks_status ks_world_cast_all(ks_world world, const ks_ray* rays, const ks_body_id* except_ids,
+                                   size_t queries, const ks_filter* filter, ks_probe probe, void* user,
+                                   size_t* ends, ks_hit* hits, size_t capacity, size_t* count);
+
 // -----------------------------------------------------------------------------------------------------------
 // Recordings (kinesphere/recording.hpp): all input and output of a world, for replay on any machine
 

@@ -10,6 +10,8 @@ own_records = {
     "ks_vec3": "Vec3",
     "ks_state": "State",
     "ks_box": "Box3",
+    "ks_sphere": "Sphere",
+    "ks_ray": "Ray",
     "ks_body_id": "BodyId",
     "ks_quaternion": "Quaternion",
     "ks_rotation": "Rotation",

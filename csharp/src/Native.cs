@@ -343,6 +343,12 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_world_cast(ulong world, Vector origin, Vector direction, double length, double radius, Probe probe, IntPtr user, [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
+        public static extern int ks_world_overlapping_all(ulong world, Sphere[] spheres, BodyId[] exceptIds, UIntPtr queries, ref Filter filter, Probe probe, IntPtr user, [Out] UIntPtr[] ends, [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_nearest_all(ulong world, Vector[] points, BodyId[] exceptIds, UIntPtr queries, UIntPtr bodies, ref Filter filter, Probe probe, IntPtr user, [Out] UIntPtr[] ends, [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_cast_all(ulong world, Ray[] rays, BodyId[] exceptIds, UIntPtr queries, ref Filter filter, Probe probe, IntPtr user, [Out] UIntPtr[] ends, [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
         public static extern int ks_world_start_recording(ulong world);
         [DllImport(library)]
         public static extern int ks_world_stop_recording(ulong world);

@@ -534,6 +534,25 @@ namespace Kinesphere
         public bool Certain { get { return certain != 0; } }
     }
 
+    /// <summary>A sphere in which to look for bodies (length).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Sphere
+    {
+        public Vector Centre;
+        public double Radius;
+    }
+
+    /// <summary>A ray or, with a radius &gt; 0, the way of a sphere (length). `direction` may have any length &gt;
+    /// 0.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Ray
+    {
+        public Vector Origin;
+        public Vector Direction;
+        public double Length;
+        public double Radius;
+    }
+
     /// <summary>Upper limit of an error: a ball of radius `horizontal`, or a limit in the plane and one along z.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct ErrorBound

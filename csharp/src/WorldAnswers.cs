@@ -73,6 +73,36 @@ namespace Kinesphere
                 Native.ks_world_nearest(handle, point, most, callback, IntPtr.Zero, hits, capacity, out count));
         }
 
+        /// <summary>Cast(), for many rays: the hits of each. One call of the probe serves all that are open.</summary>
+        /// <param name="except">For each ray the body that it passes through, such as the one that casts it; null: none.</param>
+        /// <param name="filter">Only bodies that a body with this filter may touch; null: all.</param>
+        public Hit[][] CastAll(Ray[] rays, BodyId[] except = null, Filter? filter = null, Probe probe = null)
+        {
+            return HitsOfAll(rays, "rays", except, filter, probe, (Native.Probe callback, UIntPtr queries, ref Filter chosen,
+                UIntPtr[] ends, Hit[] hits, UIntPtr capacity, out UIntPtr count) => Native.ks_world_cast_all(
+                    handle, rays, except, queries, ref chosen, callback, IntPtr.Zero, ends, hits, capacity, out count));
+        }
+
+        /// <summary>Overlapping(), for many spheres; the other arguments are those of CastAll().</summary>
+        public Hit[][] OverlappingAll(Sphere[] spheres, BodyId[] except = null, Filter? filter = null, Probe probe = null)
+        {
+            return HitsOfAll(spheres, "spheres", except, filter, probe, (Native.Probe callback, UIntPtr queries,
+                ref Filter chosen, UIntPtr[] ends, Hit[] hits, UIntPtr capacity, out UIntPtr count) =>
+                    Native.ks_world_overlapping_all(
+                        handle, spheres, except, queries, ref chosen, callback, IntPtr.Zero, ends, hits, capacity, out count));
+        }
+
+        /// <summary>Nearest(), for many points; the other arguments are those of CastAll().</summary>
+        public Hit[][] NearestAll(Vector[] points, int bodies, BodyId[] except = null, Filter? filter = null,
+            Probe probe = null)
+        {
+            var most = Arrays.NotNegative(bodies, "bodies");
+            return HitsOfAll(points, "points", except, filter, probe, (Native.Probe callback, UIntPtr queries,
+                ref Filter chosen, UIntPtr[] ends, Hit[] hits, UIntPtr capacity, out UIntPtr count) =>
+                    Native.ks_world_nearest_all(
+                        handle, points, except, queries, most, ref chosen, callback, IntPtr.Zero, ends, hits, capacity, out count));
+        }
+
         delegate int Predict(Native.Probe probe, out Prediction prediction);
 
         Prediction Predicted(Probe probe, Predict predict)
@@ -90,6 +120,28 @@ namespace Kinesphere
             Ask(probe, callback => Arrays.FillAll((Hit[] hits, UIntPtr capacity, out UIntPtr count) =>
                 find(callback, hits, capacity, out count), out found));
             return found;
+        }
+
+        delegate int FindAll(Native.Probe probe, UIntPtr queries, ref Filter chosen, UIntPtr[] ends, Hit[] hits,
+            UIntPtr capacity, out UIntPtr count);
+
+        Hit[][] HitsOfAll(Array queries, string name, BodyId[] except, Filter? filter, Probe probe, FindAll find)
+        {
+            if (queries == null) throw new ArgumentNullException(name);
+            if (except != null && except.Length != queries.Length)
+                throw new ArgumentException("There must be an id for each query.", "except");
+            var ends = new UIntPtr[queries.Length];
+            Filter given = filter.GetValueOrDefault();
+            Filter* chosen = filter.HasValue ? &given : null;
+            Hit[] found = Hits(probe, (Native.Probe callback, Hit[] hits, UIntPtr capacity, out UIntPtr count) =>
+                find(callback, (UIntPtr)queries.Length, ref *chosen, ends, hits, capacity, out count));
+            var each = new Hit[queries.Length][];
+            for (int k = 0, begin = 0; k < each.Length; begin = (int)ends[k++])
+            {
+                each[k] = new Hit[(int)ends[k] - begin];
+                Array.Copy(found, begin, each[k], 0, each[k].Length);
+            }
+            return each;
         }
     }
 }

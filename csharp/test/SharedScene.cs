@@ -182,6 +182,13 @@ static class SharedScene
             Require(world.SafeUntil().Time <= Math.Sqrt(8) && world.EarliestApproach(ids[0], 20).Happens, "predictions");
             Require(world.Nearest(new Vector(9, 0, 0), 1)[0].Body.Equals(ids[1]), "the nearest");
             Require(world.Overlapping(new Vector(), 5).Length == 1, "a sphere");
+            var along = new Ray { Origin = new Vector(-5, 0, 0), Direction = new Vector(1, 0, 0), Length = 50 };
+            var hits = world.CastAll(new[] { along, along }, new[] { ids[1], ids[0] });
+            Require(hits.Length == 2 && hits[0][0].Body.Equals(ids[0]) && hits[1][0].Body.Equals(ids[1]), "two rays");
+            var wide = new Sphere { Radius = 50 };
+            Require(world.OverlappingAll(new[] { wide, new Sphere() })[0].Length == 2, "two spheres");
+            Require(world.NearestAll(new[] { new Vector() }, 1, null, new Filter())[0].Length == 0, "nobody passes");
+            RequireStatus("out_of_range", () => world.CastAll(new[] { along, new Ray() }));
             Require(world.OverlappingBox(new Vector(9, -1, -1), new Vector(12, 1, 1)).Length == 1, "a box");
             var met = world.Events(60).First();
             Require(Math.Abs(met.Time - Math.Sqrt(8)) < 1e-5 && met.ToString().EndsWith("ContactBegin body 0, body 1"), "two ships meet");

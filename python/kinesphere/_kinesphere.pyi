@@ -904,6 +904,41 @@ class World:
         length: float,
         probe: Optional[Probe] = None,
     ) -> Table: ...
+    def overlapping_all(
+        self,
+        centres: Array,
+        radii: Array,
+        *,
+        without: Optional[Bodies] = None,
+        category: int = 1,
+        mask: Optional[int] = None,
+        probe: Optional[Probe] = None,
+        threads: Union[int, Workers] = 1,
+    ) -> Table: ...
+    def nearest_all(
+        self,
+        points: Array,
+        count: int,
+        *,
+        without: Optional[Bodies] = None,
+        category: int = 1,
+        mask: Optional[int] = None,
+        probe: Optional[Probe] = None,
+        threads: Union[int, Workers] = 1,
+    ) -> Table: ...
+    def ray_cast_all(
+        self,
+        origins: Array,
+        directions: Array,
+        lengths: Array,
+        radii: Array = 0.0,
+        *,
+        without: Optional[Bodies] = None,
+        category: int = 1,
+        mask: Optional[int] = None,
+        probe: Optional[Probe] = None,
+        threads: Union[int, Workers] = 1,
+    ) -> Table: ...
 
     # Inspection, and recordings.
     def bodies(self) -> Ids: ...

@@ -10,6 +10,7 @@
 #include "kinesphere/queries.hpp"
 #include "moving.hpp"
 #include "shapes.hpp"
+#include "threads.hpp"
 #include "world.hpp"
 
 namespace kinesphere::python {
@@ -163,6 +164,121 @@ py::object sphere_cast(WorldHandle& handle, const py::object& origin, double rad
   }));
 }
 
+// Many queries at once.
+
+struct FoundByQueryRecord {
+  std::int64_t query;
+  FoundRecord found;
+};
+
+constexpr Field found_by_query_fields[] = {
+    {"query", "i8", offsetof(FoundByQueryRecord, query)},
+    {"body", "i8", offsetof(FoundByQueryRecord, found) + offsetof(FoundRecord, body)},
+    {"certain", "?", offsetof(FoundByQueryRecord, found) + offsetof(FoundRecord, certain)},
+    {"lower", "f8", offsetof(FoundByQueryRecord, found) + offsetof(FoundRecord, lower)},
+    {"upper", "f8", offsetof(FoundByQueryRecord, found) + offsetof(FoundRecord, upper)}};
+
+double lower_of(const OverlapHit&) { return 0.0; }
+double upper_of(const OverlapHit&) { return 0.0; }
+double lower_of(const auto& hit) { return hit.lower; }
+double upper_of(const auto& hit) { return hit.upper; }
+
+template <class Hit>
+py::object found_table(const HitLists<Hit>& lists) {
+  const std::span<const Field> fields(found_by_query_fields);
+  NewArray table{
+      {lists.hits.size()},
+      row_type(std::is_same_v<Hit, OverlapHit> ? fields.first(3) : fields, sizeof(FoundByQueryRecord)),
+      sizeof(FoundByQueryRecord)};
+  std::size_t row = 0;
+  for (std::size_t query = 0; query < lists.size(); ++query)
+    for (const Hit& hit : lists[query])
+      table.data<FoundByQueryRecord>()[row++] = {
+          static_cast<std::int64_t>(query),
+          {number_of(hit.body), hit.certainty == Certainty::certainly, {}, lower_of(hit), upper_of(hit)}};
+  return table.take();
+}
+
+/// What all calls for many queries take, besides the queries.
+struct ManyOptions {
+  const py::object& without;
+  const py::object& mask;
+  std::uint64_t category;
+  const py::object& probe;
+  const py::object& threads;
+
+  std::optional<Filter> filter() const {
+    if (mask.is_none()) return std::nullopt;
+    return Filter{.category = category, .mask = mask.cast<std::uint64_t>()};
+  }
+  /// Returns the body that each query leaves out.
+  std::vector<BodyId> left_out(const char* call, std::size_t queries) const {
+    if (without.is_none()) return std::vector<BodyId>(queries, no_body);
+    const Ids named = ids_of(without, {call, "without"});
+    if (named.is_single) return std::vector<BodyId>(queries, named.ids.front());
+    if (named.ids.size() != queries)
+      refuse({call, "without"}, "must have an id for each of the " + std::to_string(queries) + " queries",
+             std::to_string(named.ids.size()));
+    return named.ids;
+  }
+  /// Returns the table of what ask(queries, workers) finds.
+  py::object table(WorldHandle& handle, const char* call, const auto& ask) const {
+    Threads shared(threads);
+    return found_table(asked(handle, call, probe, [&](World& world, auto&&... with) {
+      return ask(world.queries(std::forward<decltype(with)>(with)...), shared.workers());
+    }));
+  }
+};
+
+py::object overlapping_all(WorldHandle& handle, const py::object& centres, const py::object& radii,
+                           const py::object& without, std::uint64_t category, const py::object& mask,
+                           const py::object& probe, const py::object& threads) {
+  const char* const call = "overlapping_all";
+  const ManyOptions options{without, mask, category, probe, threads};
+  const std::vector<Vec3> middles = vectors_of(centres, {call, "centres"}, handle.is_plane());
+  const std::vector<double> sizes = each_of(radii, {call, "radii"}, middles.size());
+  const std::vector<BodyId> except = options.left_out(call, middles.size());
+  std::vector<SphereQuery> spheres;
+  for (std::size_t k = 0; k < middles.size(); ++k) spheres.push_back({middles[k], sizes[k], except[k]});
+  return options.table(handle, call, [&](const World::Queries& queries, Workers* workers) {
+    return queries.overlapping_all(spheres, options.filter(), workers);
+  });
+}
+
+py::object nearest_all(WorldHandle& handle, const py::object& points, std::size_t count,
+                       const py::object& without, std::uint64_t category, const py::object& mask,
+                       const py::object& probe, const py::object& threads) {
+  const char* const call = "nearest_all";
+  const ManyOptions options{without, mask, category, probe, threads};
+  const std::vector<Vec3> places = vectors_of(points, {call, "points"}, handle.is_plane());
+  const std::vector<BodyId> except = options.left_out(call, places.size());
+  std::vector<PointQuery> all;
+  for (std::size_t k = 0; k < places.size(); ++k) all.push_back({places[k], except[k]});
+  return options.table(handle, call, [&](const World::Queries& queries, Workers* workers) {
+    return queries.nearest_all(all, count, options.filter(), workers);
+  });
+}
+
+py::object ray_cast_all(WorldHandle& handle, const py::object& origins, const py::object& directions,
+                        const py::object& lengths, const py::object& radii, const py::object& without,
+                        std::uint64_t category, const py::object& mask, const py::object& probe,
+                        const py::object& threads) {
+  const char* const call = "ray_cast_all";
+  const ManyOptions options{without, mask, category, probe, threads};
+  const std::vector<Vec3> from = vectors_of(origins, {call, "origins"}, handle.is_plane());
+  const std::vector<Vec3> towards =
+      vectors_of(directions, {call, "directions"}, handle.is_plane(), from.size());
+  const std::vector<double> ways = each_of(lengths, {call, "lengths"}, from.size());
+  const std::vector<double> sizes = each_of(radii, {call, "radii"}, from.size());
+  const std::vector<BodyId> except = options.left_out(call, from.size());
+  std::vector<RayQuery> rays;
+  for (std::size_t k = 0; k < from.size(); ++k)
+    rays.push_back({from[k], towards[k], ways[k], sizes[k], except[k]});
+  return options.table(handle, call, [&](const World::Queries& queries, Workers* workers) {
+    return queries.ray_cast_all(rays, options.filter(), workers);
+  });
+}
+
 template <class Result>
 py::object partner_of(const Result& result) {
   return object_of(result.partner);
@@ -241,7 +357,27 @@ Their surfaces are between lower and upper (length) away.)")
       .def("ray_cast", ray_cast, py::arg("origin"), py::arg("direction"), py::arg("length"), no_probe,
            "All bodies that may be the first on the way; fields as in nearest(), lengths along the way.")
       .def("sphere_cast", sphere_cast, py::arg("origin"), py::arg("radius"), py::arg("direction"),
-           py::arg("length"), no_probe, "As ray_cast(), for a sphere of this radius.");
+           py::arg("length"), no_probe, "As ray_cast(), for a sphere of this radius.")
+      .def("overlapping_all", overlapping_all, py::arg("centres"), py::arg("radii"), py::kw_only(),
+           py::arg("without") = py::none(), py::arg("category") = 1, py::arg("mask") = py::none(), no_probe,
+           py::arg("threads") = 1,
+           R"(overlapping(), for many spheres at once: a table with the fields query, body and certain.
+
+without: the body that each query leaves out, or one for all. mask, category: only bodies that a body with
+this filter may touch (set_filter()). One call of the probe serves all queries. threads: how many share them,
+or Workers; the result is the same.)")
+      .def("nearest_all", nearest_all, py::arg("points"), py::arg("count"), py::kw_only(),
+           py::arg("without") = py::none(), py::arg("category") = 1, py::arg("mask") = py::none(), no_probe,
+           py::arg("threads") = 1,
+           R"(nearest(), for many points at once; fields query, body, certain, lower, upper.
+
+The other arguments are those of overlapping_all().)")
+      .def("ray_cast_all", ray_cast_all, py::arg("origins"), py::arg("directions"), py::arg("lengths"),
+           py::arg("radii") = 0.0, py::kw_only(), py::arg("without") = py::none(), py::arg("category") = 1,
+           py::arg("mask") = py::none(), no_probe, py::arg("threads") = 1,
+           R"(ray_cast() or, with radii > 0, sphere_cast(), for many rays at once; fields as of nearest_all().
+
+The other arguments are those of overlapping_all().)");
 }
 
 }  // namespace kinesphere::python

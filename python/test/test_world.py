@@ -306,6 +306,27 @@ def test_certificates_and_queries() -> None:
     assert world.sphere_cast((10, 20, 0), 1.0, (0, -1, 0), 50.0)["body"].tolist() == [1]
 
 
+def test_many_queries_at_once() -> None:
+    world, motion = pair()
+    rays = world.ray_cast_all(
+        [(-5, 0, 0), (-5, 9, 0)], [(1, 0, 0), (1, 0, 0)], 50.0, [0.0, 8.5], without=[0, 1]
+    )
+    assert rays["query"].tolist() == [0, 1] and rays["body"].tolist() == [1, 0]
+    near = world.nearest_all([(0, 0, 0), (10, 0, 0), (0, 0, 0)], 1, without=0, threads=2)
+    assert near["query"].tolist() == [0, 1, 2] and near["body"].tolist() == [1, 1, 1]
+    assert near.dtype.names == ("query", "body", "certain", "lower", "upper")
+    within = world.overlapping_all([(0, 0, 0), (5, 0, 0)], [0.5, 9.0])
+    assert within["query"].tolist() == [0, 1, 1] and within["body"].tolist() == [0, 0, 1]
+    exact = world.nearest_all([(2, 0, 0), (8, 0, 0)], 1, probe=motion)
+    assert exact["certain"].all() and exact["body"].tolist() == [0, 1]
+    assert len(world.overlapping_all([(0, 0, 0)], 9.0, mask=2)) == 0
+    assert len(world.overlapping_all(np.empty((0, 3)), 9.0)) == 0
+    with pytest.raises(ks.InvalidValue, match="ray_cast_all: query 1, direction must not be zero"):
+        world.ray_cast_all([(0, 0, 0)] * 2, [(1, 0, 0), (0, 0, 0)], 1.0)
+    with pytest.raises(ValueError, match="nearest_all: without must have an id for each of the 2 queries"):
+        world.nearest_all([(0, 0, 0)] * 2, 1, without=[0, 1, 0])
+
+
 def test_inspection() -> None:
     world, motion = pair()
     world.set_profiling(True)

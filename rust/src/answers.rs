@@ -1,7 +1,7 @@
 //! Certified answers and queries at a world's current time.
 use crate::error::{filled, Guarded, Result};
-use crate::geometry::{BodyId, Box3, State, Vec3};
-use crate::records::{Hit, Prediction};
+use crate::geometry::{BodyId, Box3, Ray, Sphere, State, Vec3};
+use crate::records::{Filter, Hit, Prediction};
 use crate::sys;
 use crate::world::{probe_of, World};
 use std::os::raw::c_void;
@@ -60,6 +60,40 @@ impl World {
     pub fn cast(&self, origin: Vec3, direction: Vec3, length: f64, radius: f64) -> Result<Vec<Hit>> {
         self.answers().cast(origin, direction, length, radius)
     }
+    /// [`World::overlapping`], for many spheres.
+    pub fn overlapping_all(&self, spheres: &[Sphere], choice: &Choice) -> Result<Vec<Vec<Hit>>> {
+        self.answers().overlapping_all(spheres, choice)
+    }
+    /// [`World::nearest`], for many points.
+    pub fn nearest_all(&self, points: &[Vec3], bodies: usize, choice: &Choice) -> Result<Vec<Vec<Hit>>> {
+        self.answers().nearest_all(points, bodies, choice)
+    }
+    /// [`World::cast`], for many rays.
+    pub fn cast_all(&self, rays: &[Ray], choice: &Choice) -> Result<Vec<Vec<Hit>>> {
+        self.answers().cast_all(rays, choice)
+    }
+}
+
+/// Which bodies many queries look at. They pass through all others.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Choice<'a> {
+    /// Those that a body with this filter may touch; without one, all.
+    pub filter: Option<Filter>,
+    /// Empty, or for each query the body that it leaves out.
+    pub except: &'a [BodyId],
+}
+
+impl Choice<'_> {
+    /// What C takes of it. Fails by the call's own words if there are not as many ids as queries.
+    fn checked(&self, queries: usize, call: &str) -> (*const BodyId, Option<sys::ks_filter>) {
+        assert!(
+            self.except.is_empty() || self.except.len() == queries,
+            "{call}: except must have an id for each of the {queries} queries, but has {}",
+            self.except.len()
+        );
+        let except = if self.except.is_empty() { ptr::null() } else { self.except.as_ptr() };
+        (except, self.filter.map(|filter| filter.raw()))
+    }
 }
 
 /// The methods of [`World`] with these names.
@@ -112,6 +146,37 @@ impl Answers<'_> {
         })
     }
 
+    pub fn overlapping_all(&mut self, spheres: &[Sphere], choice: &Choice) -> Result<Vec<Vec<Hit>>> {
+        let (except, filter) = choice.checked(spheres.len(), "overlapping_all");
+        let filter = filter.as_ref().map_or(ptr::null(), |filter| filter as *const _);
+        self.find_all(spheres.len(), |world, probe, user, ends, hits, capacity, count| unsafe {
+            let queries = spheres.as_ptr();
+            sys::ks_world_overlapping_all(
+                world, queries, except, spheres.len(), filter, probe, user, ends, hits, capacity, count,
+            )
+        })
+    }
+    pub fn nearest_all(&mut self, points: &[Vec3], bodies: usize, choice: &Choice) -> Result<Vec<Vec<Hit>>> {
+        let (except, filter) = choice.checked(points.len(), "nearest_all");
+        let filter = filter.as_ref().map_or(ptr::null(), |filter| filter as *const _);
+        self.find_all(points.len(), |world, probe, user, ends, hits, capacity, count| unsafe {
+            let queries = points.as_ptr();
+            sys::ks_world_nearest_all(
+                world, queries, except, points.len(), bodies, filter, probe, user, ends, hits, capacity, count,
+            )
+        })
+    }
+    pub fn cast_all(&mut self, rays: &[Ray], choice: &Choice) -> Result<Vec<Vec<Hit>>> {
+        let (except, filter) = choice.checked(rays.len(), "cast_all");
+        let filter = filter.as_ref().map_or(ptr::null(), |filter| filter as *const _);
+        self.find_all(rays.len(), |world, probe, user, ends, hits, capacity, count| unsafe {
+            let queries = rays.as_ptr();
+            sys::ks_world_cast_all(
+                world, queries, except, rays.len(), filter, probe, user, ends, hits, capacity, count,
+            )
+        })
+    }
+
     /// Makes a call with the probe of C, if there is one.
     fn ask(
         &mut self,
@@ -159,5 +224,28 @@ impl Answers<'_> {
             status
         })?;
         Ok(found.iter().map(Hit::of).collect())
+    }
+    /// Returns the hits of each query.
+    fn find_all(
+        &mut self,
+        queries: usize,
+        call: impl Fn(
+            sys::ks_world,
+            Option<sys::ks_probe>,
+            *mut c_void,
+            *mut usize,
+            *mut sys::ks_hit,
+            usize,
+            *mut usize,
+        ) -> sys::ks_status,
+    ) -> Result<Vec<Vec<Hit>>> {
+        let mut ends = vec![0; queries];
+        let to = ends.as_mut_ptr();
+        let found = self.find(|world, probe, user, hits, capacity, count| {
+            call(world, probe, user, to, hits, capacity, count)
+        })?;
+        let mut begin = 0;
+        let of_query = |end: usize| found[std::mem::replace(&mut begin, end)..end].to_vec();
+        Ok(ends.into_iter().map(of_query).collect())
     }
 }

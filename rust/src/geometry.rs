@@ -69,6 +69,24 @@ pub struct Box3 {
     pub upper: Vec3,
 }
 
+/// A sphere in which to look for bodies (length).
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sphere {
+    pub centre: Vec3,
+    pub radius: f64,
+}
+
+/// A ray or, with a radius > 0, the way of a sphere (length). `direction` may have any length > 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ray {
+    pub origin: Vec3,
+    pub direction: Vec3,
+    pub length: f64,
+    pub radius: f64,
+}
+
 /// Shape of a static body, a zone or a body that carries it. Bodies may be where `dot(normal, p) >= offset` of a
 /// half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -42,11 +42,13 @@ mod recording;
 mod records;
 mod world;
 
-pub use answers::Answers;
+pub use answers::{Answers, Choice};
 pub use bodies::{RigidDefinition, StaticDefinition};
 pub use error::{Error, Result};
 pub use events::{EventHash, Response};
-pub use geometry::{BodyId, Box3, Mesh, Quaternion, RigidHull, RigidPart, Rotation, Shape, State, Vec3};
+pub use geometry::{
+    BodyId, Box3, Mesh, Quaternion, Ray, RigidHull, RigidPart, Rotation, Shape, Sphere, State, Vec3,
+};
 pub use monitor::{ErrorBound, Monitor, Separation, SeparationRule};
 pub use recording::Replay;
 pub use records::*;

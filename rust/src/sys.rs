@@ -4,7 +4,7 @@
 #![allow(non_camel_case_types)]
 #![allow(clippy::new_without_default)]
 
-use crate::geometry::{BodyId, Box3, Quaternion, RigidPart, Rotation, State, Vec3};
+use crate::geometry::{BodyId, Box3, Quaternion, Ray, RigidPart, Rotation, Sphere, State, Vec3};
 use std::os::raw::{c_char, c_void};
 
 pub type ks_status = i32;
@@ -718,6 +718,8 @@ const _: () = {
     assert!(std::mem::size_of::<ks_motion_definition>() == 104);
     assert!(std::mem::size_of::<ks_prediction>() == 32);
     assert!(std::mem::size_of::<ks_hit>() == 32);
+    assert!(std::mem::size_of::<Sphere>() == 32);
+    assert!(std::mem::size_of::<Ray>() == 64);
     assert!(std::mem::size_of::<ks_replay>() == 8);
     assert!(std::mem::size_of::<ks_monitor>() == 8);
     assert!(std::mem::size_of::<ks_error_bound>() == 24);
@@ -828,6 +830,9 @@ extern "C" {
     pub fn ks_world_overlapping_box(world: ks_world, box_: *const Box3, probe: Option<ks_probe>, user: *mut c_void, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_nearest(world: ks_world, point: Vec3, bodies: usize, probe: Option<ks_probe>, user: *mut c_void, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_cast(world: ks_world, origin: Vec3, direction: Vec3, length: f64, radius: f64, probe: Option<ks_probe>, user: *mut c_void, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_world_overlapping_all(world: ks_world, spheres: *const Sphere, except_ids: *const BodyId, queries: usize, filter: *const ks_filter, probe: Option<ks_probe>, user: *mut c_void, ends: *mut usize, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_world_nearest_all(world: ks_world, points: *const Vec3, except_ids: *const BodyId, queries: usize, bodies: usize, filter: *const ks_filter, probe: Option<ks_probe>, user: *mut c_void, ends: *mut usize, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_world_cast_all(world: ks_world, rays: *const Ray, except_ids: *const BodyId, queries: usize, filter: *const ks_filter, probe: Option<ks_probe>, user: *mut c_void, ends: *mut usize, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_start_recording(world: ks_world) -> ks_status;
     pub fn ks_world_stop_recording(world: ks_world) -> ks_status;
     pub fn ks_world_recording(world: ks_world, bytes: *mut u8, capacity: usize, count: *mut usize) -> ks_status;

@@ -422,6 +422,17 @@ fn snapshots_queries_and_predictions() {
     assert!(hits.len() == 1 && hits[0].body == left && hits[0].certain);
     assert_eq!(world.nearest(Vec3::new(9.0, 0.0, 0.0), 1).unwrap()[0].body, right);
     assert!(world.overlapping(Vec3::new(5.0, 0.0, 0.0), 1.0).unwrap().is_empty());
+    let along = Ray { origin: Vec3::new(-5.0, 0.0, 0.0), direction: Vec3::new(1.0, 0.0, 0.0), length: 50.0, radius: 0.0 };
+    let hits = world.cast_all(&[along, along], &Choice { filter: None, except: &[right, left] }).unwrap();
+    assert!(hits.len() == 2 && hits[0][0].body == left && hits[1][0].body == right);
+    let spheres = [Sphere { centre: Vec3::default(), radius: 50.0 }, Sphere { centre: Vec3::new(5.0, 0.0, 0.0), radius: 1.0 }];
+    let found = world.answers_with(&probe).overlapping_all(&spheres, &Choice::default()).unwrap();
+    assert!(found[0].len() == 2 && found[1].is_empty());
+    let nobody = Filter { category: 0, mask: 0, group: 0 };
+    let found = world.nearest_all(&[Vec3::default()], 1, &Choice { filter: Some(nobody), except: &[] }).unwrap();
+    assert!(found[0].is_empty());
+    let refused = world.cast_all(&[along, Ray::default()], &Choice::default()).unwrap_err();
+    assert!(refused.to_string().contains("query 1, direction"), "{refused}");
     let corner = Box3 { lower: Vec3::new(8.0, -1.0, -1.0), upper: Vec3::new(9.5, 1.0, 1.0) };
     assert_eq!(world.overlapping_box(&corner).unwrap()[0].body, right);
     assert!(world.pair_safe_until(left, right, 2.0).unwrap().time <= 3.0);

@@ -364,6 +364,25 @@ static void answers(void) {
   CHECK(count == 2);
   CHECK_OK(ks_world_nearest(world, vec3(7, 0, 0), 1, NULL, NULL, hits, 2, &count));
   CHECK(count == 1 && ks_same_body(hits[0].body, right) && fabs(hits[0].upper - 2) < 1e-6);
+
+  // The first ray begins inside the ball that it leaves out.
+  const ks_ray rays[2] = {{vec3(0, 0, 0), vec3(1, 0, 0), 100, 0}, {vec3(0, 50, 0), vec3(1, 0, 0), 100, 0}};
+  const ks_body_id casters[2] = {left, right};
+  size_t ends[2];
+  CHECK_OK(ks_world_cast_all(world, rays, casters, 2, NULL, probe_flight, &f, ends, hits, 2, &count));
+  CHECK(count == 1 && ends[0] == 1 && ends[1] == 1 && ks_same_body(hits[0].body, right));
+  const ks_sphere spheres[2] = {{vec3(10, 0, 3), 2.5}, {vec3(0, 0, 0), 20}};
+  CHECK(ks_world_overlapping_all(world, spheres, NULL, 2, NULL, NULL, NULL, ends, NULL, 0, &count) ==
+        KS_ERROR_BUFFER_TOO_SMALL);
+  ks_hit all[3];
+  CHECK_OK(ks_world_overlapping_all(world, spheres, NULL, 2, NULL, NULL, NULL, ends, all, 3, &count));
+  CHECK(count == 3 && ends[0] == 1 && ends[1] == 3 && ks_same_body(all[0].body, right));
+  const ks_vec3 points[2] = {vec3(7, 0, 0), vec3(7, 0, 0)};
+  CHECK_OK(ks_world_nearest_all(world, points, casters, 2, 1, NULL, NULL, NULL, ends, hits, 2, &count));
+  CHECK(count == 2 && ks_same_body(hits[0].body, right) && ks_same_body(hits[1].body, left));
+  const ks_filter nobody = {0, 0, 0};
+  CHECK_OK(ks_world_nearest_all(world, points, NULL, 2, 1, &nobody, NULL, NULL, ends, hits, 2, &count));
+  CHECK(count == 0 && ends[1] == 0);
   CHECK_OK(ks_world_destroy(world));
 }
 

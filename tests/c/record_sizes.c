@@ -35,6 +35,8 @@ HAS_SIZE(ks_run_definition, 56);
 HAS_SIZE(ks_motion_definition, 104);
 HAS_SIZE(ks_prediction, 32);
 HAS_SIZE(ks_hit, 32);
+HAS_SIZE(ks_sphere, 32);
+HAS_SIZE(ks_ray, 64);
 HAS_SIZE(ks_replay, 8);
 HAS_SIZE(ks_monitor, 8);
 HAS_SIZE(ks_error_bound, 24);

@@ -239,6 +239,13 @@ static void wrong_bodies(ks_world world) {
   REFUSED(ks_world_bodies(world, ids, 4, NULL), NULL_ARGUMENT);
   REFUSED(ks_world_cast(world, vec3(0, 0, 0), vec3(0, 0, 0), 1, 0, NULL, NULL, NULL, 0, &count),
           OUT_OF_RANGE);
+  size_t ends[1];
+  const ks_ray nowhere = {{0, 0, 0}, {0, 0, 0}, 1, 0};
+  REFUSED(ks_world_cast_all(world, &nowhere, NULL, 1, NULL, NULL, NULL, ends, NULL, 0, &count), OUT_OF_RANGE);
+  CHECK(strstr(ks_last_error_message(), "query 0, direction") != NULL);
+  REFUSED(ks_world_cast_all(world, NULL, NULL, 1, NULL, NULL, NULL, ends, NULL, 0, &count), NULL_ARGUMENT);
+  REFUSED(ks_world_cast_all(world, &nowhere, NULL, 1, NULL, NULL, NULL, NULL, NULL, 0, &count),
+          NULL_ARGUMENT);
   ks_state state;
   REFUSED(ks_world_states(world, &still, 1, 0.0, &state), UNKNOWN_BODY);
   CHECK_OK(ks_world_destroy(other));
