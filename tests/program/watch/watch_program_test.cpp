@@ -344,7 +344,7 @@ TEST_F(WatchProgram, ReadsGzippedAndStandardInput) {
 
 constexpr std::string_view two_aircraft = R"({ "now" : 1700000000.1, "aircraft" : [
 {"hex":"4ca1fa","alt_baro":35000,"gs":450,"track":90,"baro_rate":0,"lat":51.5,"lon":-0.1,"seen_pos":0.2,"rc":75,"nac_v":2},
-{"hex":"400a01","alt_baro":35000,"gs":450,"track":270,"baro_rate":0,"lat":51.5,"lon":0.1,"seen_pos":0.5,"nac_p":10,"nac_v":2},
+{"hex":"400a01","flight":"BAW\u003c7 ","alt_baro":35000,"gs":450,"track":270,"baro_rate":0,"lat":51.5,"lon":0.1,"seen_pos":0.5,"nac_p":10,"nac_v":2},
 {"hex":"400a02","alt_baro":35000,"gs":450,"track":270,"baro_rate":0,"lat":51.5,"lon":20,"seen_pos":0.5,"nac_p":10}]}
 {"now": 1700000001.1, "aircraft": [
 {"hex":"4ca1fa","alt_baro":35000,"gs":450,"track":90,"baro_rate":0,"lat":51.5,"lon":-0.1,"seen_pos":1.2,"rc":75,"nac_v":2}]}
@@ -356,6 +356,8 @@ TEST_F(WatchProgram, WatchesAircraft) {
   ASSERT_GE(lines.size(), 1u);
   EXPECT_EQ(lines[0]["verdict"], "within");
   EXPECT_EQ(lines[0]["first"], "400a01");
+  EXPECT_EQ(lines[0]["first_name"], "BAW<7");
+  EXPECT_FALSE(lines[0].contains("second_name")) << "no name has been told";
   EXPECT_EQ(lines[0]["time"], 1700000000.1);
   EXPECT_EQ(lines[0]["rests_on"]["first"],
             "position: 2.5 times the 95 % of nac_p; height: 78.81 (default of readsb); velocity: 2.5 times "
