@@ -372,6 +372,35 @@ TEST_F(WatchProgram, WatchesAircraft) {
   EXPECT_EQ(summary_["format"], "readsb");
 }
 
+TEST_F(WatchProgram, DrawsAMapAndWhenPairsHadAlerts) {
+  const std::string file = write("aircraft.json", two_aircraft),
+                    options = file + " --separation cylinder:10NM:1000ft";
+  const std::string alerts = run("watch " + options).out;
+  const ProgramRun drawn = run("watch " + options + " --plot " + path("w.svg"));
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_EQ(drawn.out, alerts);
+  const std::string svg = read_text(path("w.svg"));
+  EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+  for (const char* text :
+       {"2 tracks, 1 pair with alerts", "longitude (degrees)", "time from 2023-11-14 on (UTC)", ">22:13:21<",
+        "BAW&lt;7 and 4ca1fa<", "height=\"14.0\""})
+    EXPECT_NE(svg.find(text), std::string::npos) << text << "\n" << svg;
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+
+  // The two are within from 8.5 to 11.5 s, about: that is drawn although its end is not told.
+  ASSERT_EQ(run("watch " + write("s.jsonl", head_on()) + " --separation sphere:30 --plot " + path("h.svg") +
+                promises)
+                .exit_code,
+            0);
+  const std::string of_pair = read_text(path("h.svg"));
+  const std::size_t bar = of_pair.find("height=\"14.0\"");
+  ASSERT_NE(bar, std::string::npos);
+  const std::size_t width = of_pair.rfind("width=\"", bar) + 7;
+  EXPECT_NEAR(std::stod(of_pair.substr(width)), 370.0 * 3.0 / 20.5, 30.0);
+  EXPECT_NE(of_pair.find("time (s)"), std::string::npos);
+  expect_wrong_input("watch " + options + " --plot " + path("w.png"), {"w.png", ".svg"});
+}
+
 TEST_F(WatchProgram, WatchesVesselsWithDates) {
   std::string text = "MMSI,BaseDateTime,LAT,LON,SOG,COG,Heading\n";
   for (int t = 10; t < 60; t += 10) {
