@@ -29,7 +29,7 @@ awk '
   function words(text, parts) {gsub(/\]\([^)]*\)/, "]", text); return split(text, parts, " ")}
   function too_long(what, count, most) {
     if (count <= most) return
-    printf "%s:%d: a %s of %d words: at most %d\n", FILENAME, line, what, count, most > "/dev/stderr"
+    printf "%s:%d: a %s of %d words: at most %d\n", file, line, what, count, most > "/dev/stderr"
     failed = 1
   }
   function end_paragraph() {too_long("paragraph", words(text), 120); text = ""}
@@ -37,13 +37,13 @@ awk '
   /^ *```/ {end_paragraph(); in_code = !in_code; next}
   in_code {next}
   /^ *\|[ -]/ {
-    end_paragraph(); line = FNR; gsub(/\\\|/, "")
+    end_paragraph(); file = FILENAME; line = FNR; gsub(/\\\|/, "")
     for (k = split($0, cells, "|"); k > 0; --k) too_long("cell", words(cells[k]), 40)
     next
   }
   /^ *$/ || /^#/ {end_paragraph(); next}
   /^ *([-*]|[0-9]+\.) / {end_paragraph()}
-  {if (text == "") line = FNR; text = text " " $0}
+  {if (text == "") {file = FILENAME; line = FNR} text = text " " $0}
   END {end_paragraph(); exit failed}' README.md docs/*.md docs/*/*.md
 
 # The lines of a block in a file after a line that matches a pattern: of the first one, or of the given number.
