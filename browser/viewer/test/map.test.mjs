@@ -235,7 +235,7 @@ describe("a watch that is started again", () => {
 });
 
 describe("a crowd", () => {
-  const watch = new Watch("--dimensions", "2", "--separation", "sphere:30m:60s", "--acceleration", "0.1", "--position-error", "10",
+  const watch = new Watch("--dimensions", "2", "--separation", "sphere:30:60s", "--acceleration", "0.1", "--position-error", "10",
                           "--velocity-error", "0.1");
   after(() => watch.process.kill());
 
@@ -259,8 +259,8 @@ describe("a crowd", () => {
     for (const [k, a] of labels.entries())
       for (const b of labels.slice(k + 1))
         assert.ok(a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y || b.y + b.height <= a.y, JSON.stringify([a, b]));
-    // Each place is known to ten metres, and to what ten seconds of its course add.
-    for (const { text } of labels.filter(({ text }) => /^CPA/.test(text))) assert.match(text, /^CPA [\d.]+ m ± 2\d([.]\d)? · /);
+    // Each place is known to ten.
+    for (const { text } of labels.filter(({ text }) => /^CPA/.test(text))) assert.match(text, /^CPA [\d.]+ ± 2\d([.]\d)? · /);
   });
 
   for (const [width, height] of [[390, 844], [375, 667]])

@@ -103,8 +103,9 @@ export class Chart {
     if (this.showNeeds) this.drawNeeds(view, scene);
     this.drawChosen(view, scene, chosen, chosenPair);
     const texts = chosenPair === null ? scene.pairs : [chosenPair, ...scene.pairs.filter((pair) => pair !== chosenPair)];
-    this.drawTexts(view, texts.slice(0, mostTexts), taken);
-    if (this.showNames) this.drawNames(view, scene, chosen, chosenPair, taken);
+    const dots = dotsOf(view, scene);
+    this.drawTexts(view, texts.slice(0, mostTexts), taken, dots);
+    if (this.showNames) this.drawNames(view, scene, chosen, chosenPair, taken, dots);
   }
 
   private drawGrid(view: View, plane: EarthPlane | null, taken: Taken): void {
@@ -261,7 +262,7 @@ export class Chart {
   }
 
   /** Writes distance and time to go at closest approaches, and vertical distances at the lines of open pairs. */
-  private drawTexts(view: View, pairs: readonly DrawnPair[], taken: Taken): void {
+  private drawTexts(view: View, pairs: readonly DrawnPair[], taken: Taken, dots: Taken): void {
     const { context, colours, units } = this;
     context.font = smallFont;
     context.lineJoin = "round";
@@ -270,15 +271,15 @@ export class Chart {
       const { places, approach, isPredicted, concern } = drawn;
       if (places === null) continue;
       if (approach !== null && (isPredicted || drawn === pairs[0]))
-        this.write(view, approach.places, `CPA ${approachText(approach, units)}`, colours[concern], taken, places);
+        this.write(view, approach.places, `CPA ${approachText(approach, units)}`, colours[concern], taken, dots, places);
       if (drawn.above !== null && drawn.pair.verdict !== "apart")
-        this.write(view, places, units.above(drawn.above.difference, drawn.above.rate), colours[drawn.pair.verdict], taken);
+        this.write(view, places, units.above(drawn.above.difference, drawn.above.rate), colours[drawn.pair.verdict], taken, dots);
     }
     context.textBaseline = "alphabetic";
   }
 
-  /** Writes a text beside the middle of a line, if there is room; best where it hides no way to `ends`. */
-  private write(view: View, [one, other]: readonly [Spot, Spot], text: string, colour: string, taken: Taken, ends: readonly Spot[] = []): void {
+  /** Writes a text beside the middle of a line, if there is room and no dot; best where it hides no way to `ends`. */
+  private write(view: View, [one, other]: readonly [Spot, Spot], text: string, colour: string, taken: Taken, dots: Taken, ends: readonly Spot[] = []): void {
     const { context, colours } = this;
     const [x, y] = view.toScreen((one.x + other.x) / 2, (one.y + other.y) / 2);
     if (isFar(view, x, y, 0)) return;
@@ -289,8 +290,10 @@ export class Chart {
       Math.max(-1, ...ways.map(([wayX, wayY]) => wayX * sideX + wayY * sideY));
     const spots: (readonly [number, number, number, number])[] =
       [[10, 0, 1, 0], [-10 - width, 0, -1, 0], [-width / 2, -19, 0, -1], [-width / 2, 19, 0, 1], [14, 17, 0.9, 0.4], [14, -17, 0.9, -0.4]];
-    const spot = spots.sort((a, b) => hidden(a) - hidden(b))
-      .find(([dx, dy]) => isBetweenPanels(view, x + dx, width) && this.takeFor(text, taken, x + dx - 2, y + dy - 7, width + 4, 14));
+    const far = farSpots(width).map(([dx, dy]) => [dx, dy, 0, Math.sign(dy)] as const);
+    const spot = [...spots.sort((a, b) => hidden(a) - hidden(b)), ...far]
+      .find(([dx, dy]) => isBetweenPanels(view, x + dx, width) && dots.isFree(x + dx, y + dy - 7, width, 14) &&
+        this.takeFor(text, taken, x + dx - 2, y + dy - 7, width + 4, 14));
     if (spot === undefined) return;
     context.strokeStyle = colours.ground;
     context.lineWidth = 3.5;
@@ -398,19 +401,17 @@ export class Chart {
   }
 
   /** Draws the names of the most important tracks first, while there is room. */
-  private drawNames(view: View, scene: Scene, chosen: Chosen, chosenPair: DrawnPair | null, taken: Taken): void {
+  private drawNames(view: View, scene: Scene, chosen: Chosen, chosenPair: DrawnPair | null, taken: Taken, dots: Taken): void {
     const { context, colours } = this;
     const important = new Set([chosen.track, chosen.hovered, chosenPair?.pair.first, chosenPair?.pair.second, scene.state.own]);
     const rank = ({ track, concern, need }: DrawnTrack) =>
       important.has(track.id) ? 0 : concern !== null ? ranks[concern] : need !== null && this.showNeeds ? 4 : track.stale ? 6 : 5;
-    const dots = new Taken();
     const inSight: { drawn: DrawnTrack; x: number; y: number; rank: number }[] = [];
     for (const drawn of scene.tracks.values()) {
       const place = drawn.track.places[0];
       if (place === undefined) continue;
       const [x, y] = view.toScreen(place.x, place.y);
       if (!isFar(view, x, y, 0)) inSight.push({ drawn, x, y, rank: rank(drawn) });
-      dots.occupy(x - 4, y - 4, 8, 8);
     }
     inSight.sort((a, b) => a.rank - b.rank);
     context.font = font;
@@ -496,6 +497,16 @@ export class Chart {
     }
     return width;
   }
+}
+
+/** Returns the squares of the dots of all tracks. */
+function dotsOf(view: View, scene: Scene): Taken {
+  const dots = new Taken();
+  for (const { x, y } of placesOf(scene.tracks.values())) {
+    const [atX, atY] = view.toScreen(x, y);
+    if (!isFar(view, atX, atY, 0)) dots.occupy(atX - 4, atY - 4, 8, 8);
+  }
+  return dots;
 }
 
 /** Returns places of a text of this width above and below its dot, the nearest first. */

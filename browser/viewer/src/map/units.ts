@@ -51,7 +51,7 @@ export class Units {
   /** Returns the text of a horizontal distance and how far it may be off, in one unit if that is readable: 129 m ± 40. */
   lengthWithin(length: number, error: number | null): string {
     if (error === null) return this.length(length);
-    const [text, off] = [this.length(length), this.length(error)];
+    const [text, off] = [this.length(length), this.length(Number(error.toPrecision(2)))];
     const [number, unit] = off.split(" ");
     return `${text} ± ${unit === undefined || text.endsWith(` ${unit}`) ? number : off}`;
   }
