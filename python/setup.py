@@ -40,7 +40,7 @@ setup(
     url=address or None,
     python_requires=">=3.11",
     install_requires=["numpy>=1.24"],
-    extras_require={"pandas": ["pandas"], "examples": ["matplotlib", "scipy"]},
+    extras_require={"pandas": ["pandas"], "plot": ["matplotlib"], "examples": ["matplotlib", "scipy"]},
     packages=["kinesphere"],
     package_data={"kinesphere": ["py.typed", "*.pyi"]},
     include_package_data=False,

@@ -10,6 +10,8 @@
 # - Each example that a lesson runs prints what the lesson says.
 # - Each mark "proved" or "tested" in docs/guarantee.md names an existing theorem or test, and the tables of
 #   proof/README.md have all theorems of proof/.
+# - No paragraph of docs/ and README.md is longer than 120 words, and no cell of a table longer than 40; a link counts as
+#   its text.
 # Usage: check_docs.sh <example first_contact> <example sensors> <program kinesphere>
 set -euo pipefail
 
@@ -22,6 +24,27 @@ sed 's/⟨/\n⟨/g; s/⟩/\n/g' docs/guarantee.md | grep '^⟨' | grep -oE '`[^`
   exit 1
 done
 diff <(awk -F'|' '!/^\|/ {on = 0} on {print $2} /^\| theorem / {on = 1}' proof/README.md | grep -oE '`[^`]*`' | tr -d '`' | sort) - <<<"$theorems"
+
+awk '
+  function words(text, parts) {gsub(/\]\([^)]*\)/, "]", text); return split(text, parts, " ")}
+  function too_long(what, count, most) {
+    if (count <= most) return
+    printf "%s:%d: a %s of %d words: at most %d\n", file, line, what, count, most > "/dev/stderr"
+    failed = 1
+  }
+  function end_paragraph() {too_long("paragraph", words(text), 120); text = ""}
+  FNR == 1 {end_paragraph(); in_code = 0}
+  /^ *```/ {end_paragraph(); in_code = !in_code; next}
+  in_code {next}
+  /^ *\|[ -]/ {
+    end_paragraph(); file = FILENAME; line = FNR; gsub(/\\\|/, "")
+    for (k = split($0, cells, "|"); k > 0; --k) too_long("cell", words(cells[k]), 40)
+    next
+  }
+  /^ *$/ || /^#/ {end_paragraph(); next}
+  /^ *([-*]|[0-9]+\.) / {end_paragraph()}
+  {if (text == "") {file = FILENAME; line = FNR} text = text " " $0}
+  END {end_paragraph(); exit failed}' README.md docs/*.md docs/*/*.md
 
 # The lines of a block in a file after a line that matches a pattern: of the first one, or of the given number.
 block_after() {

@@ -7,6 +7,7 @@ from pathlib import Path
 from drawing import Drawing
 
 RESULTS = Path(__file__).resolve().parents[2] / "research" / "results"
+HEIGHT = 492
 SCENES = ["paper1-500", "paper1-1000", "paper1-3500", "dense-10000", "drones", "crowd", "bullets", "sizes"]
 
 
@@ -51,7 +52,7 @@ def draw_costs():
     bottom = 70.0 + step * len(SCENES)
     picture = Drawing(
         640,
-        int(bottom + 70),
+        HEIGHT,
         "Cost of finding every contact",
         "For eight scenes the microseconds for a sphere and a second, with a microsecond for each move: of the "
         "world, and of the slowest continuous steps that miss nothing. The world takes 1.5 to 100 times less.",
@@ -76,7 +77,7 @@ def draw_costs():
 
 def draw_build():
     """For each thing that is built the seconds of processor, when each target was one source and now."""
-    left, right, step, largest = 190.0, 560.0, 60.0, 300.0
+    left, right, step, largest = 190.0, 560.0, 120.0, 300.0
     with (RESULTS / "build_times.csv").open() as file:
         table = {(row["when"], row["what"]): row for row in csv.DictReader(file)}
     things = {"first": "first command", "library": "library alone", "python": "Python package"}
@@ -86,7 +87,7 @@ def draw_build():
     )
     picture = Drawing(
         640,
-        int(bottom + 60),
+        HEIGHT,
         "Time to build",
         "Seconds of processor, when each target was one source and now: "
         + ", ".join(f"{label} {b:.0f} and {n:.0f}" for label, b, n in zip(things.values(), before, now))
@@ -111,7 +112,7 @@ def draw_misses():
     left, right, top, bottom = 100.0, 590.0, 60.0, 400.0
     picture = Drawing(
         640,
-        470,
+        HEIGHT,
         "What fixed steps miss",
         "For four scenes the share of contacts that are missed by tests for overlap at fixed steps, over the "
         "steps in a second. Drones at one step a second miss 35 %, bullets at 60 Hz 30 %, drones and a crowd at "
@@ -146,4 +147,104 @@ def draw_misses():
         picture.text(at + 18.0, 30, scene, ink)
         at += 40.0 + 12.0 * len(scene)
     picture.text(right + 30, bottom + 54, "steps in a second", "quiet", "end")
+    return picture
+
+
+def draw_ratios():
+    """For each scene what rivals take where the world takes 1."""
+    scenes = [
+        "paper1-500",
+        "paper1-1000",
+        "paper1-2000",
+        "paper1-3500",
+        "dense-1000",
+        "dense-10000",
+        "paper2",
+    ]
+    scenes += ["drones", "crowd", "bullets", "sizes"]
+    left, right, step = 150.0, 600.0, 31.0
+    bottom = 84.0 + step * len(scenes)
+    picture = Drawing(
+        640,
+        HEIGHT,
+        "What others take, where the world takes 1",
+        "For eleven scenes the times of our fixed steps at 60 Hz, of Bullet's broad phase at 60 Hz, and of the slowest swept "
+        "steps that miss nothing, as multiples of the time of the world. The first two are mostly below 1, and miss contacts.",
+    )
+    x = logarithmic(picture, 0.01, 100, left, right, 70.0, bottom, "")
+    picture.line(x(1), 70, x(1), bottom, "ink-line")
+    rows_of = rows()
+    kinds = [
+        ("quiet", 1, "tuned, 60 Hz", lambda row: row["detector"] == "tuned" and row["rate"] == "60"),
+        (
+            "other",
+            2,
+            "bullet-best, 60 Hz",
+            lambda row: row["detector"] == "bullet-best" and row["rate"] == "60",
+        ),
+        (
+            "probe",
+            0,
+            "swept, none missed",
+            lambda row: row["detector"] == "swept" and row["missed_percent"] == "0",
+        ),
+    ]
+    for k, (ink, shape, words, _) in enumerate(kinds):
+        place = 30.0 + 200.0 * k
+        mark(picture, shape, place, 34.0, f"{ink}-area")
+        picture.text(place + 14, 40, words, "ink small")
+    for k, scene in enumerate(scenes):
+        y = 84.0 + step * (k + 0.5) - 8.0
+        picture.text(left - 12, y + 6, scene, "ink small", "end")
+        for ink, shape, _, fits in kinds:
+            some = [row for row in rows_of[scene] if fits(row)]
+            if some:
+                row = min(some, key=lambda one: float(one["rate"]))
+                mark(picture, shape, x(float(row["to_world"])), y, f"{ink}-area")
+    picture.text(right + 20, bottom + 50, "time, world = 1", "quiet", "end")
+    return picture
+
+
+# Milliseconds of a frame of `kinesphere-bench frames` on an Intel Xeon: median, 99 %, worst.
+FRAMES = {
+    ("thin", 1000): (0.0118, 0.0727, 0.222),
+    ("thin", 10000): (0.144, 0.371, 1.73),
+    ("thin", 50000): (1.12, 2.78, 14.9),
+    ("steady", 1000): (0.0364, 0.0921, 0.155),
+    ("steady", 10000): (0.471, 0.726, 1.15),
+    ("steady", 50000): (4.62, 6.27, 14.3),
+    ("dense", 1000): (0.0962, 0.232, 0.27),
+    ("dense", 10000): (1.31, 1.97, 2.98),
+    ("dense", 50000): (11.1, 13.8, 32.8),
+    ("eventful", 1000): (0.517, 0.723, 0.821),
+    ("eventful", 10000): (2.79, 3.7, 4.61),
+    ("eventful", 50000): (10.5, 17.9, 30.2),
+}
+
+
+def draw_frames():
+    """For each game how long frames take: from the median to the worst."""
+    left, right, step = 190.0, 600.0, 28.0
+    bottom = 84.0 + step * len(FRAMES)
+    picture = Drawing(
+        640,
+        HEIGHT,
+        "How long frames take",
+        "For four games of 1,000, 10,000 and 50,000 bodies the median of the times of frames, the 99th percentile and the "
+        "worst, in milliseconds. A frame at 60 Hz has 16.7.",
+    )
+    x = logarithmic(picture, 0.01, 100, left, right, 70.0, bottom, "")
+    picture.line(x(1000 / 60), 62, x(1000 / 60), bottom, "open-line", stroke_dasharray="6 5")
+    picture.text(x(1000 / 60), 54, "60 Hz", "open small", "middle")
+    marks = [("body", 0, "median"), ("other", 1, "99 %"), ("contact", 3, "worst")]
+    for k, (ink, shape, words) in enumerate(marks):
+        mark(picture, shape, 30.0 + 130.0 * k, 34.0, f"{ink}-area")
+        picture.text(44.0 + 130.0 * k, 40, words, "ink small")
+    for k, ((game, bodies), times) in enumerate(FRAMES.items()):
+        y = 84.0 + step * (k + 0.5) - 6.0
+        picture.text(left - 12, y + 6, f"{game}, {bodies:,}", "ink small", "end")
+        picture.line(x(times[0]), y, x(times[2]), y, "frame-line")
+        for (ink, shape, _), time in zip(marks, times):
+            mark(picture, shape, x(time), y, f"{ink}-area")
+    picture.text(right + 20, bottom + 50, "milliseconds", "quiet", "end")
     return picture

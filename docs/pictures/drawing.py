@@ -103,27 +103,57 @@ class Drawing:
         ]
         self.area(head, f"{class_}-area")
 
-    def svg(self):
-        sides = [
-            "".join(
-                f".{name}-line{{stroke:{colours[side]}}}.{name}-area,.{name}-text{{fill:{colours[side]}}}"
-                for name, colours in INKS.items()
-            )
-            for side in (0, 1)
-        ]
-        style = (
-            f"text{{font:500 {self.size}px system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu Sans',sans-serif}}"
-            "[class$=line]{fill:none;stroke-width:2;stroke-linecap:round;stroke-linejoin:round}"
-            f".small{{font-size:18px}}.bold{{font-weight:700}}{sides[0]}"
-            f"@media(prefers-color-scheme:dark){{{sides[1]}}}"
-        )
-        lines = [
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {self.width} {self.height}" '
-            f'width="{self.width}" height="{self.height}" role="img">',
-            f"<title>{escape(self.title)}</title><desc>{escape(self.about)}</desc>",
-            f"<style>{style}</style>",
+    def words(self):
+        return f"<title>{escape(self.title)}</title><desc>{escape(self.about)}</desc>"
+
+    def content(self):
+        return [
             f'<rect class="paper-area" width="{self.width}" height="{self.height}" rx="12"/>',
             *self.parts,
-            "</svg>",
         ]
-        return "\n".join(lines) + "\n"
+
+    def svg(self):
+        return whole(self, self.content(), [self.words()])
+
+
+def whole(drawing, content, head=()):
+    """An SVG of the size of a drawing, with a head before its styles."""
+    sides = [
+        "".join(
+            f".{name}-line{{stroke:{colours[side]}}}.{name}-area,.{name}-text{{fill:{colours[side]}}}"
+            for name, colours in INKS.items()
+        )
+        for side in (0, 1)
+    ]
+    style = (
+        f"text{{font:500 {drawing.size}px system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu Sans',sans-serif}}"
+        "[class$=line]{fill:none;stroke-width:2;stroke-linecap:round;stroke-linejoin:round}"
+        f".small{{font-size:18px}}.bold{{font-weight:700}}{sides[0]}"
+        f"@media(prefers-color-scheme:dark){{{sides[1]}}}"
+    )
+    lines = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {drawing.width} {drawing.height}" '
+        f'width="{drawing.width}" height="{drawing.height}" role="img">',
+        *head,
+        f"<style>{style}</style>",
+        *content,
+        "</svg>",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+class Sheet:
+    """Drawings of one size in one file. A page shows one of them by its name: FILE.svg#NAME."""
+
+    def __init__(self, drawings):
+        self.drawings = drawings
+
+    def svg(self):
+        first, *others = self.drawings.values()
+        content = []
+        for k, (name, one) in enumerate(self.drawings.items()):
+            assert (one.width, one.height, one.size) == (first.width, first.height, first.size), name
+            top = k * one.height
+            content.append(f'<view id="{name}" viewBox="0 {top} {one.width} {one.height}"/>')
+            content += [f'<g transform="translate(0 {top})">', one.words(), *one.content(), "</g>"]
+        return whole(first, content)

@@ -11,18 +11,30 @@ from pathlib import Path
 import bound
 import charts
 import film
+import guides
 import late
+import lessons
 import pair
 import regions
+from drawing import Sheet
 
 PICTURES = {
     "bound": bound.draw,
     "regions": regions.draw,
     "pair": pair.draw,
     "late": late.draw,
-    "build": charts.draw_build,
-    "costs": charts.draw_costs,
-    "misses": charts.draw_misses,
+    "guides": lambda: Sheet({name: draw() for name, draw in {**lessons.DRAWINGS, **guides.DRAWINGS}.items()}),
+    "charts": lambda: Sheet(
+        {
+            "costs": charts.draw_costs(),
+            "misses": charts.draw_misses(),
+            "ratios": charts.draw_ratios(),
+            "frames": charts.draw_frames(),
+            "build": charts.draw_build(),
+        }
+    ),
+    "tracks": guides.tracks,
+    "python": guides.python,
     "film": film.draw,
     "film-still": lambda: film.draw(moving=False),
 }
@@ -30,7 +42,10 @@ PICTURES = {
 
 def main():
     folder = Path(__file__).resolve().parent
-    made = {folder / f"{name}.svg": draw().svg() for name, draw in PICTURES.items()}
+    drawn = {name: draw() for name, draw in PICTURES.items()}
+    for name in [name for name, picture in drawn.items() if picture is None]:
+        print(f"docs/pictures: {name}.svg is skipped, as what draws it is not here (guides.py)")
+    made = {folder / f"{name}.svg": one.svg() for name, one in drawn.items() if one is not None}
     if sys.argv[1:] == ["--check"]:
         stale = [path.name for path, text in made.items() if not path.exists() or path.read_text() != text]
         sys.exit(f"docs/pictures: not as make.py makes them: {', '.join(stale)}" if stale else 0)

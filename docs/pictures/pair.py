@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from course import Course, weaving
+from bound import Course, weaving
 from drawing import Drawing
 
 from kinesphere import EventKind

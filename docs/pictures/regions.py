@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from course import Course
+from bound import Course
 from drawing import Drawing
 
 from kinesphere import place_spheres

@@ -10,7 +10,9 @@ import numpy.typing as npt
 
 from ._kinesphere import _approaches
 from .errors import InvalidValue
-from .events import columns_of, html_of
+from .events import columns_of
+from .notebooks import html_of
+from .plots import Part, plot_approaches
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -41,13 +43,19 @@ class Approaches:
     """
 
     def __init__(
-        self, array: npt.NDArray[np.void], probes: int, summary: Optional[dict[str, Any]] = None
+        self,
+        array: npt.NDArray[np.void],
+        probes: int,
+        summary: Optional[dict[str, Any]] = None,
+        is_geographic: bool = False,
     ) -> None:
         self.array = array
         self.probes = probes
         """How many states certainty took."""
         self.summary = summary
         """Of tracks_in: what was read, and what was not looked at (docs/tracks.md). None of tracks."""
+        self.is_geographic = is_geographic
+        """Whether positions are degrees of longitude and latitude, and lengths metres: of tracks_in alone."""
 
     def __len__(self) -> int:
         return len(self.array)
@@ -64,7 +72,7 @@ class Approaches:
         if isinstance(key, str):
             values: npt.NDArray[Any] = self.array[key]
             return values
-        return Approaches(self.array[key], self.probes, self.summary)
+        return Approaches(self.array[key], self.probes, self.summary, self.is_geographic)
 
     def __repr__(self) -> str:
         return f"<{len(self)} approaches>"
@@ -78,6 +86,27 @@ class Approaches:
         import pandas as pd
 
         return pd.DataFrame(columns_of(self.array))
+
+    def plot(
+        self,
+        part: Optional[Part] = None,
+        *,
+        axes: Any = None,
+        tracks: Optional[tuple[npt.ArrayLike, npt.ArrayLike]] = None,
+    ) -> Any:
+        """Draws where the approaches were, when and how close, and how many were how close; needs matplotlib.
+
+        The three closest have colours, marks and their ids. Lengths have the unit of the tracks; times that are
+        dates, or seconds since 1970, are shown as dates and clock times in UTC.
+
+        part: "map", "time" or "histogram" alone; None draws all three beside each other. A map has the two axes along
+        which the positions reach farthest.
+        axes: where to draw the part; by default a figure of its own.
+        tracks: x and y of all samples, two arrays of one shape, drawn beneath the map, whose axes are then x and y.
+
+        Returns the matplotlib Figure. Raises ImportError without matplotlib.
+        """
+        return plot_approaches(self, part, axes, tracks)
 
 
 @overload

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from enum import IntEnum
-from html import escape
-from typing import TYPE_CHECKING, Any, Generic, Optional, Protocol, Self, TypeVar, Union, overload
+from typing import TYPE_CHECKING, Any, Generic, Optional, Self, TypeVar, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -13,35 +12,14 @@ import numpy.typing as npt
 from ._kinesphere import Event, MonitorEvent, event_dtype, monitor_event_dtype
 from .errors import InvalidValue
 from .kinds import EventKind, MonitorEventKind, Senses, Verdict, Wall
+from .notebooks import html_of
+from .plots import Part, plot_events
 
 if TYPE_CHECKING:
     import pandas as pd
 
 Row = TypeVar("Row")
 Kind = TypeVar("Kind", bound=IntEnum)
-_shown_rows = 10
-
-
-class _HasFrame(Protocol):
-    def __len__(self) -> int:
-        ...
-
-    def __getitem__(self, key: slice) -> Self:
-        ...
-
-    def to_pandas(self) -> pd.DataFrame:
-        ...
-
-
-def html_of(table: _HasFrame, text: str) -> Optional[str]:
-    """The first rows of a table under this text; None, for which a notebook shows the text, without pandas."""
-    try:
-        frame = table[:_shown_rows].to_pandas()
-    except ImportError:
-        return None
-    rest = len(table) - len(frame)
-    end = f"<p>... and {rest} more</p>" if rest > 0 else ""
-    return f"<p>{escape(text)}</p>{frame.to_html(notebook=True)}{end}"
 
 
 def columns_of(array: npt.NDArray[np.void]) -> dict[str, Any]:
@@ -193,6 +171,17 @@ class Events(_Table[Event, EventKind]):
         columns["second"] = pd.array(self["second"], dtype="Int64")
         columns["second"][self["second"] == no_body] = pd.NA
         return pd.DataFrame(columns)
+
+    def plot(self, part: Optional[Part] = None, *, axes: Any = None) -> Any:
+        """Draws where events were, how many there were up to each time, and how fast contacts were; needs matplotlib.
+
+        part: "map", "time" or "histogram" alone; None draws all three beside each other. A map has the two axes along
+        which the points reach farthest.
+        axes: where to draw the part; by default a figure of its own.
+
+        Returns the matplotlib Figure. Raises ImportError without matplotlib.
+        """
+        return plot_events(self, part, axes)
 
 
 class MonitorEvents(_Table[MonitorEvent, MonitorEventKind]):

@@ -12,12 +12,24 @@ from typing import TYPE_CHECKING, Any, Optional, Union, overload
 import numpy as np
 import numpy.typing as npt
 
-from .events import html_of
+from .notebooks import compact_html, shown_rows
+from .plots import least_unix_time
 from .programs import PathLike, run_program
 
 if TYPE_CHECKING:
     import pandas as pd
 
+_fields_of_times = (
+    "time",
+    "since",
+    "until",
+    "closest_time",
+    "likely_time",
+    "ask_by",
+    "avoidable_until",
+    "inevitable_by",
+)
+_header = ("time", "what", "who", "distance", "closest")
 _not_here = {"serve", "snapshot", "snapshot_every", "alerts", "text", "quiet", "summary"}
 
 
@@ -25,7 +37,8 @@ class Alerts(Sequence[dict[str, Any]]):
     """Alerts in the order in which they were told, each a dict with the fields of docs/watch.md (Alerts).
 
     alerts["closest_distance"] is a column: numbers with NaN where an alert has none, else objects with None.
-    alerts.of("predicted", "verdict") are those of these events.
+    alerts.of("predicted", "verdict") are those of these events. print(alerts) and notebooks show who came how near to
+    whom, with names where the stream has them and dates where its times are dates or seconds since 1970 (in UTC).
     """
 
     def __init__(self, rows: list[dict[str, Any]], summary: dict[str, Any]) -> None:
@@ -66,21 +79,73 @@ class Alerts(Sequence[dict[str, Any]]):
         return iter(self.rows)
 
     def __repr__(self) -> str:
-        return f"<{len(self)} alerts>"
+        return f"<{len(self)} alert{'s' * (len(self) != 1)}>"
+
+    def __str__(self) -> str:
+        """A line for each alert: when, what, who, the limits of the distance and the closest approach."""
+        rows = [_text_of(row) for row in self.rows]
+        widths = [max((len(row[k]) for row in rows), default=0) for k in range(len(_header))]
+        return "\n".join("  ".join(map(str.ljust, row, widths)).rstrip() for row in rows) or repr(self)
 
     def of(self, *events: str) -> Alerts:
         """The alerts whose event is one of these."""
         return Alerts([row for row in self.rows if row["event"] in events], self.summary)
 
     def to_pandas(self) -> pd.DataFrame:
-        """A data frame with a row for each alert."""
+        """A data frame with a row for each alert; columns of dates and of seconds since 1970 are datetime64[ns]."""
         import pandas as pd
 
-        return pd.DataFrame(self.rows)
+        frame = pd.DataFrame(self.rows)
+        for name in _fields_of_times:
+            if name in frame and _have_dates(frame[name]):
+                frame[name] = pd.Series([_date_of(value) for value in frame[name]], dtype="datetime64[ns]")
+        return frame
 
-    def _repr_html_(self) -> Optional[str]:
-        """In a notebook: the first rows as a table, where pandas is there."""
-        return html_of(self, repr(self))
+    def _repr_html_(self) -> str:
+        """In a notebook: the first alerts as print() shows them."""
+        return compact_html(repr(self), _header, map(_text_of, self.rows[:shown_rows]), len(self))
+
+
+def _date_of(value: Any) -> np.datetime64:
+    """A date, or seconds since 1970; NaT for None."""
+    if isinstance(value, str):
+        return np.datetime64(value.removesuffix("Z"), "ns")
+    known = value is not None and value == value
+    return np.datetime64(round(value * 1e9) // 1000 * 1000 if known else "NaT", "ns")
+
+
+def _have_dates(values: Iterable[Any]) -> bool:
+    """Whether all times of a column are dates or seconds since 1970."""
+    known = [value for value in values if value is not None and value == value]
+    return bool(known) and all(isinstance(value, str) or value >= least_unix_time for value in known)
+
+
+def _clock(value: Any) -> str:
+    return (
+        str(_date_of(value).astype("datetime64[s]")).replace("T", " ")
+        if _have_dates([value])
+        else f"{value:.1f}"
+    )
+
+
+def _length(value: float) -> str:
+    return f"{value:,.0f}" if abs(value) >= 1000 else f"{value:.4g}"
+
+
+def _text_of(row: dict[str, Any]) -> tuple[str, ...]:
+    """When, what, who, the limits of the distance and the closest approach of an alert."""
+    event, verdict = row["event"], row.get("verdict")
+    if event == "verdict":
+        event = "over" if verdict == "apart" and row.get("before") == "within" else verdict
+    elif event == "prediction_ended":
+        event = "over"
+    names = [str(row.get(f"{one}_name") or row[one]) for one in ("first", "second", "track") if one in row]
+    lost = f", {names[2]} is lost" if len(names) == 3 else ""
+    limits, closest = row.get("distance"), row.get("closest_distance")
+    distance = f"{_length(limits[0])} to {_length(limits[1])}" if limits and None not in limits else ""
+    when = row.get("closest_time")
+    approach = f"{_length(closest)} at {_clock(when)}" if closest is not None and when is not None else ""
+    return _clock(row["time"]), event.replace("_", " "), " and ".join(names[:2]) + lost, distance, approach
 
 
 def watch(

@@ -114,9 +114,11 @@ def tracks_in(
         options |= {"contacts": table, "summary": written, "quiet": True}
         run_program("tracks_in", program, "tracks", options, names, argument="files")
         with table.open(newline="") as lines:
-            rows = list(csv.DictReader(lines))
+            reader = csv.DictReader(lines)
+            rows = list(reader)
         summary = json.loads(written.read_text())
-    return Approaches(_array_of(rows), summary["probes"], summary)
+    is_geographic = "distance_m" in (reader.fieldnames or ())
+    return Approaches(_array_of(rows), summary["probes"], summary, is_geographic)
 
 
 def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:

@@ -195,6 +195,10 @@ it takes no lock but the GIL.)")
                                [](const World& now) {
                                  return py::str("<World of {} bodies at {}>").format(now.size(), now.time());
                                }))
+      .def("_repr_html_",
+           [](const py::object& self) {
+             return package_attribute("kinesphere.notebooks", "world_html")(self);
+           })
       .def("clone", clone, "A world of its own that goes on as this one does, to the bit. Cost: O(n).")
       .def("__copy__", clone)
       .def("__deepcopy__", [](WorldHandle& handle, const py::object&) { return clone(handle); })

@@ -17,7 +17,9 @@ def test_a_block_of_the_guide(block: str, monkeypatch: pytest.MonkeyPatch) -> No
         if PROGRAM is None:
             pytest.skip("KINESPHERE_PROGRAM does not name the program")
         monkeypatch.setenv("PATH", os.path.dirname(PROGRAM), prepend=os.pathsep)
-    if "pandas" in block:
-        pytest.importorskip("pandas")
+    for optional in ("pandas", "matplotlib"):
+        if optional in block:
+            pytest.importorskip(optional)
+    monkeypatch.setenv("MPLBACKEND", "Agg")
     monkeypatch.chdir(ROOT)
     exec(compile(block, "docs/python.md", "exec"), {"__name__": "guide"})

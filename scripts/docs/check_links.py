@@ -55,5 +55,9 @@ for path, page in pages.items():
             and unquote(parts.fragment) not in pages[target].anchors
         ):
             broken.append(f"{path.relative_to(folder)}: no such place in the page: {link}")
+        elif (
+            target.suffix == ".svg" and parts.fragment and f'id="{parts.fragment}"' not in target.read_text()
+        ):
+            broken.append(f"{path.relative_to(folder)}: no such drawing in the picture: {link}")
 print("\n".join(broken), file=sys.stderr) if broken else print(f"{len(pages)} pages, {count} links")
 sys.exit(bool(broken))

@@ -16,6 +16,7 @@ import sys
 from pathlib import Path
 from typing import Any, Optional
 
+from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -39,6 +40,8 @@ languages = {
     ".toml": "toml",
     ".cmake": "cmake",
 }
+# What visitors look for in words that the guides may not use themselves.
+SOUGHT = ("tunneling", "raycast", "GPU", "demo", "Jupyter")
 # A link to a file or folder of the project. Code has no target like that.
 LINK = re.compile(r"\]\((?![a-z]+:|#|/)([\w./+-]+)(#[^)\s]*)?\)")
 LIST_ITEM = re.compile(r" *([-*]|\d+\.) ")
@@ -196,4 +199,8 @@ def on_post_build(config: Any) -> None:
     index = Path(config["site_dir"]) / "search/search_index.json"
     content = json.loads(index.read_text())
     content["docs"] = [entry for entry in content["docs"] if not entry["location"].startswith("sources/")]
+    texts = " ".join(f"{entry['title']} {entry['text']}" for entry in content["docs"]).lower()
+    absent = [word for word in SOUGHT if word.lower() not in texts]
+    if absent:
+        raise PluginError(f"the search would not find {', '.join(absent)}: a page has to say what there is")
     index.write_text(json.dumps(content, separators=(",", ":")))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the reference of the Python package, one page, from its docstrings and the types of its stubs.
+"""Writes the reference of the Python package from its docstrings and the types of its stubs: a page with all functions,
+and one for each class in the folder beside it that is named as the page.
 
 It fails for a public class, call or module that has no docstring. Plain attributes may leave theirs to the class.
 Usage: python_reference.py PAGE (with an interpreter that has the package)
@@ -8,6 +9,7 @@ Usage: python_reference.py PAGE (with an interpreter that has the package)
 import ast
 import inspect
 import re
+import shutil
 import sys
 from enum import IntEnum
 from pathlib import Path
@@ -95,7 +97,7 @@ def is_kind(node: ast.FunctionDef, kind: str) -> bool:
 
 
 def of_class(name: str, thing: Any) -> str:
-    text = f"### {name}\n\n"
+    text = f"# {name}\n\nA class of the [Python package](../{page.name}), `kinesphere.{name}`.\n\n"
     functions = [node for node in stubs[name][0].body if isinstance(node, ast.FunctionDef)]
     makers = [
         node
@@ -125,7 +127,7 @@ def of_class(name: str, thing: Any) -> str:
     for member, nodes in members.items():
         # The last of several signatures takes what all of them take.
         call = signature(nodes[-1], not is_kind(nodes[-1], "staticmethod"))
-        text += f"#### {name}.{member}\n\n```python\n{call}\n```\n\n"
+        text += f"## {name}.{member}\n\n```python\n{call}\n```\n\n"
         text += documentation(f"{name}.{member}", getattr(thing, member)) + "\n\n"
     body = stubs[name][0].body
     values = [
@@ -151,23 +153,34 @@ text += (
 named = " ".join(GROUPS.values()).split()
 if sorted(named) != sorted(kinesphere.__all__):
     sys.exit(f"python_reference: groups and __all__ differ: {sorted(set(named) ^ set(kinesphere.__all__))}")
+classes: dict[str, str] = {}
 for group, names in GROUPS.items():
     text += f"## {group}\n\n"
+    rows, calls_of = [], ""
     for name in names.split():
         thing = getattr(kinesphere, name)
         if inspect.isclass(thing):
-            text += of_class(name, thing)
+            classes[name] = of_class(name, thing)
+            about = documentation(name, thing).split("\n\n")[0].replace("\n", " ").replace("|", "\\|")
+            rows.append(f"| [{name}]({page.stem}/{name}.md) | {about} |")
         elif callable(thing):
             calls = "\n".join(
                 signature(node, False) for node in stubs[name] if isinstance(node, ast.FunctionDef)
             )
-            text += f"### {name}\n\n```python\n{calls}\n```\n\n{documentation(name, thing)}\n\n"
+            calls_of += f"### {name}\n\n```python\n{calls}\n```\n\n{documentation(name, thing)}\n\n"
         else:
             shown = (
                 str(thing) if isinstance(thing, (int, str)) else "a NumPy dtype: " + ", ".join(thing.names)
             )
-            text += f"### {name}\n\n`{shown}`\n\n"
+            calls_of += f"### {name}\n\n`{shown}`\n\n"
+    if rows:
+        text += "| class | |\n|---|---|\n" + "\n".join(rows) + "\n\n"
+    text += calls_of
 if missing:
     sys.exit("python_reference: no docstring: " + ", ".join(missing))
-page.parent.mkdir(parents=True, exist_ok=True)
+folder = page.with_suffix("")
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir(parents=True)
+for name, content in classes.items():
+    (folder / f"{name}.md").write_text(content)
 page.write_text(text)

@@ -170,9 +170,16 @@ TEST_F(ProgramTest, SummarisesARun) {
   const ProgramRun result = run("run " + write("s.json", small_scene) + " --seed 42");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
-  for (const char* label : {"scene", "bodies", "seed", "detector", "simulated", "contacts", "wall contacts",
+  for (const char* label : {"scene", "bodies", "seed", "simulated", "contacts", "wall contacts", "hardest",
                             "probes", "hash", "real time"}) {
     EXPECT_EQ(lines_with(result.out, std::string(label) + " "), 1u) << label << "\n" << result.out;
+  }
+  EXPECT_TRUE(result.out.starts_with("contacts ")) << "first what was asked for: " << result.out;
+  EXPECT_EQ(result.out.find('\x1b'), std::string::npos) << "no colours in a file";
+  const ProgramRun verbose = run("run " + path("s.json") + " --seed 42 --verbose");
+  for (const char* label : {"detector", "steps", "  pair checks", "searches", "pair tests", "memory"}) {
+    EXPECT_EQ(lines_with(result.out, label), 0u) << label << "\n" << result.out;
+    EXPECT_EQ(lines_with(verbose.out, label), 1u) << label << "\n" << verbose.out;
   }
   EXPECT_NE(result.out.find("42"), std::string::npos);
 }
@@ -417,10 +424,25 @@ TEST_F(ProgramTest, DrawsApproaches) {
   const std::string svg = read_text(path("a.svg"));
   EXPECT_TRUE(svg.starts_with("<svg ")) << svg;
   EXPECT_TRUE(svg.ends_with("</svg>\n"));
-  for (const char* text : {"3 tracks, 3 approaches", "time from the closest approach (s)", "ann and bob: "})
+  for (const char* text : {"3 tracks, 3 approaches closer than 2<", "time from the closest approach (s)",
+                           "distance (unit of the file)", "ann and bob<"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
+  // The ways of a pair have its colour, as its curve and its ring have.
+  std::size_t of_first_pair = 0;
+  for (std::size_t at = 0; (at = svg.find("stroke=\"#d55e00\"", at)) != std::string::npos; ++at)
+    ++of_first_pair;
+  EXPECT_EQ(of_first_pair, 5u);
+  const std::string dated =
+      write("dated.csv",
+            "id,time,x_km,y_km\na,2026-05-01T09:59:50Z,0,0\na,2026-05-01T10:00:10Z,1,0\n"
+            "b,2026-05-01T09:59:50Z,1,0.001\nb,2026-05-01T10:00:10Z,0,0.001\n");
+  ASSERT_EQ(run("tracks " + dated + " --distance 100 --quiet --plot " + path("d.svg")).exit_code, 0);
+  const std::string with_clock = read_text(path("d.svg"));
+  for (const char* text :
+       {"2 tracks, 1 approach closer than 100 m<", "x (km)", "distance (m)", "1 m at 2026-05-01 10:00:00Z<"})
+    EXPECT_NE(with_clock.find(text), std::string::npos) << text << "\n" << with_clock;
   // No track is near another, and none moves.
   const std::string still = write("u.csv", "id,time,x,y\na,0,1,1\na,1,1,1\n");
   ASSERT_EQ(run("tracks " + still + " --distance 2 --quiet --plot " + path("b.svg")).exit_code, 0);
@@ -428,6 +450,27 @@ TEST_F(ProgramTest, DrawsApproaches) {
   expect_wrong_input("tracks " + file + " --distance 2 --plot " + path("a.png"), {"a.png", ".svg"});
   expect_wrong_input(
       "tracks " + file + " --distance 2 --plot " + path("c.svg") + " --contacts " + path("c.svg"), {"c.svg"});
+}
+
+TEST_F(ProgramTest, DrawsARun) {
+  const std::string scene = write("s.json", small_scene);
+  const ProgramRun result = run("run " + scene + " --plot " + path("a.svg"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string svg = read_text(path("a.svg"));
+  EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+  const std::string contacts = result.out.substr(result.out.find("contacts") + 18, 9);
+  const std::string count = contacts.substr(0, contacts.find(' '));
+  EXPECT_NE(svg.find(": " + count + " contact"), std::string::npos) << count;
+  for (const char* text : {"Contacts in a second", "time (s)", "approach speed (length / s)", "of walls"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  const std::string nothing =
+      write("n.json", R"({"bodies": 1, "seconds": 0, "box": [[0, 0, 0], [9, 9, 9]]})");
+  ASSERT_EQ(run("run " + nothing + " --quiet --plot " + path("n.svg")).exit_code, 0);
+  EXPECT_NE(read_text(path("n.svg")).find(": 0 contacts<"), std::string::npos);
+  EXPECT_EQ(read_text(path("n.svg")).find("nan"), std::string::npos);
+  expect_wrong_input("run " + scene + " --plot " + path("a.png"), {"a.png", ".svg"});
+  expect_wrong_input("run " + scene + " --plot " + path("b.svg") + " --contacts " + path("b.svg"), {"b.svg"});
 }
 
 TEST_F(ProgramTest, RefusesWrongTracks) {

@@ -5,7 +5,9 @@
 
 #include <limits>
 
+#include "base/chart.hpp"
 #include "base/progress.hpp"
+#include "base/standard_output.hpp"
 
 namespace kinesphere::program::summary_test {
 namespace {
@@ -38,6 +40,47 @@ TEST(Summary, AlignsColumns) {
             "longer  1,234  more\n"
             "\n"
             "b       a long value without a note\n");
+}
+
+TEST(Summary, HasColoursOnATerminalThatWantsThem) {
+  Summary summary;
+  summary.row("a", "12", "notes", Tone::strong);
+  summary.row("b", "bad", "", Tone::bad);
+  summary.row("longer", "1,234", "more");
+  EXPECT_EQ(summary.text(true),
+            "a       \x1b[1m12\x1b[0m     notes\n"
+            "b       \x1b[1;31mbad\x1b[0m\n"
+            "longer  1,234  more\n");
+  EXPECT_EQ(summary.text().find('\x1b'), std::string::npos);
+  EXPECT_TRUE(has_colour(true, nullptr, "xterm"));
+  EXPECT_TRUE(has_colour(true, "", "xterm")) << "an empty NO_COLOR forbids nothing";
+  EXPECT_FALSE(has_colour(true, "1", "xterm"));
+  EXPECT_FALSE(has_colour(true, nullptr, "dumb"));
+  EXPECT_FALSE(has_colour(true, nullptr, nullptr));
+  EXPECT_FALSE(has_colour(false, nullptr, "xterm"));
+}
+
+TEST(Chart, CountsAsPeopleDo) {
+  EXPECT_EQ(counted(1, "approach", "approaches"), "1 approach");
+  EXPECT_EQ(counted(0, "approach", "approaches"), "0 approaches");
+  EXPECT_EQ(counted(2000, "track"), "2,000 tracks");
+}
+
+TEST(Chart, HasTicksAtRoundTimes) {
+  const auto texts = [](const std::vector<Tick>& ticks) {
+    std::vector<std::string> result;
+    for (const Tick& tick : ticks) result.push_back(tick.text);
+    return result;
+  };
+  using Texts = std::vector<std::string>;
+  // 1700000000 is 2023-11-14 22:13:20.
+  EXPECT_EQ(texts(clock_ticks(0, 1800, 1700000000, 6)),
+            (Texts{"22:15", "22:20", "22:25", "22:30", "22:35", "22:40"}));
+  EXPECT_EQ(texts(clock_ticks(0, 100, 1700000000, 4)),
+            (Texts{"22:13:30", "22:14:00", "22:14:30", "22:15:00"}));
+  EXPECT_EQ(texts(clock_ticks(0, 4 * 86400.0, 1700000000, 6)), (Texts{"11-15", "11-16", "11-17", "11-18"}));
+  EXPECT_EQ(clock_ticks(100, 130, 1700000000, 6).front().at, 100);
+  EXPECT_EQ(texts(number_ticks(0, 1, 5)), (Texts{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"}));
 }
 
 TEST(Progress, Line) {

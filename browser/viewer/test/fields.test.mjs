@@ -90,7 +90,7 @@ describe("a stream of the air", () => {
   test("a predicted pair has distance, vertical distance and time of its closest approach", async () => {
     assert.equal(await number(page, "predicted"), "1");
     const [pair] = await texts(page, "#pairs li");
-    assert.match(pair, /^DLH4TK–RYR1ABpredictedCPA \d{3} m, [+]11 · in 2 min 3\d s/);
+    assert.match(pair, /^DLH4TK–RYR1ABpredictedCPA \d{3} m ± \d+( m)?, [+]11 · in 2 min 3\d s/);
     // RYR1AB is 500 ft lower than DLH4TK, which sinks by 600 ft/min.
     assert.match(pair, /now 28[.]\d to 2\d[.]\d NM · −05↑/);
   });
@@ -166,7 +166,7 @@ describe("a stream of the air", () => {
     const [{ title, body }, ...others] = await page.evaluate(() => window.notifications);
     assert.deepEqual(others, []);
     assert.equal(title, "Predicted: KLM35Q – TRA8");
-    assert.match(body, /CPA (9|10)\d\d m, 00/);
+    assert.match(body, /CPA (9|10)\d\d m ± \d+, 00/);
     assert.equal((await said()).sounded, 2);
     await page.reload();
     await page.waitForFunction(() => window.kinesphereMap.scene?.tracks.size > 0);
@@ -218,7 +218,7 @@ describe("a stream of the sea", () => {
   test("has ships' names, nautical miles and the own ship", async () => {
     assert.equal(await page.evaluate(() => window.kinesphereMap.scene.state.own), "211234560");
     const pairs = await texts(page, "#pairs li");
-    assert.ok(pairs.some((text) => /^SEUTE DEERN–MAERSK EINDHOVENpredictedCPA 0[.]2\d NM · in \d+ min.*now 4[.]\d\d to 4[.]\d\d NM/s.test(text)), pairs.join("; "));
+    assert.ok(pairs.some((text) => /^SEUTE DEERN–MAERSK EINDHOVENpredictedCPA 0[.]2\d NM ± [\d.]+( m)? · in \d+ min.*now 4[.]\d\d to 4[.]\d\d NM/s.test(text)), pairs.join("; "));
     assert.equal(await page.textContent("#only"), "only SEUTE DEERN");
     await page.fill("#find-text", "seute");
     await page.keyboard.press("Enter");
@@ -274,7 +274,7 @@ describe("a stream with x, y and z", () => {
                    { id: "2", stamp: t, position: [100 - 4 * t, 8, 24 + 0.2 * t], velocity: [-4, 0, 0.2] });
     const page = await inBrowser.open(await watch.address, calmly);
     await page.waitForFunction(() => window.kinesphereMap.scene.pairs.length > 0);
-    assert.match((await texts(page, "#pairs li"))[0], /^Anna–2predictedCPA \d([.]\d+)?, [+](9|8[.]9\d?) · in 2\d s.*now 1\d\d to 1\d\d · [+]4[.]\d+ ↑/s);
+    assert.match((await texts(page, "#pairs li"))[0], /^Anna–2predictedCPA \d([.]\d+)? ± \d([.]\d+)?, [+](9|8[.]9\d?) · in 2\d s.*now 1\d\d to 1\d\d · [+]4[.]\d+ ↑/s);
     assert.match(await page.textContent("#scale-text"), /^\d+$/);
     await page.keyboard.press("u");
     assert.match(await page.textContent("#scale-text"), /^\d+$/, "nothing says that it is metres");

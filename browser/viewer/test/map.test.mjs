@@ -234,6 +234,59 @@ describe("a watch that is started again", () => {
   });
 });
 
+describe("a crowd", () => {
+  const watch = new Watch("--dimensions", "2", "--separation", "sphere:30:60s", "--acceleration", "0.1", "--position-error", "10",
+                          "--velocity-error", "0.1");
+  after(() => watch.process.kill());
+
+  test("no text covers another one, and important names find room", async () => {
+    const crowd = (stamp) => Array.from({ length: 24 }, (_, k) => {
+      const angle = 2 * Math.PI * k / 24;
+      const way = 100 - 2 * stamp + 3 * (k % 4);
+      return at(`vessel number ${k}`, stamp, way * Math.cos(angle), way * Math.sin(angle), [-2 * Math.cos(angle), -2 * Math.sin(angle), 0]);
+    });
+    watch.report(...crowd(0), ...crowd(5), ...crowd(10));
+    const page = await inBrowser.open(await watch.address, calmly);
+    await page.waitForFunction(() => window.kinesphereMap.scene.tracks.size === 24 && window.kinesphereMap.scene.state.predictions.length > 20);
+    await page.click("#pairs li button");
+    await isDrawn(page);
+    const { labels, chosen } = await page.evaluate(() => {
+      const { labels, scene, chosen } = window.kinesphereMap;
+      return { labels: [...labels], chosen: scene.pairs.find(({ key }) => key === chosen.pair).ids };
+    });
+    assert.ok(labels.filter(({ text }) => /^CPA/.test(text)).length > 0 && labels.length > 12, JSON.stringify(labels));
+    for (const id of chosen) assert.ok(labels.some(({ text }) => text === id), `${id} of the chosen pair has its name`);
+    for (const [k, a] of labels.entries())
+      for (const b of labels.slice(k + 1))
+        assert.ok(a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y || b.y + b.height <= a.y, JSON.stringify([a, b]));
+    // Each place is known to ten.
+    for (const { text } of labels.filter(({ text }) => /^CPA/.test(text))) assert.match(text, /^CPA [\d.]+ ± 2\d([.]\d)? · /);
+  });
+
+  for (const [width, height] of [[390, 844], [375, 667]])
+    test(`on a phone of ${width} by ${height} the map has half of the screen, and nothing shines through its lists`, async () => {
+      const { page } = inBrowser;
+      await page.setViewportSize({ width, height });
+      await isDrawn(page);
+      for (const theme of ["dark", "bright"]) {
+        const [hud, lists, background] = await page.evaluate((theme) => {
+          document.documentElement.dataset.theme = theme;
+          const box = (id) => document.querySelector(id).getBoundingClientRect();
+          return [box("#hud").bottom, box("#lists").top, getComputedStyle(document.querySelector("#lists")).backgroundColor];
+        }, theme);
+        assert.ok(lists - hud >= 0.5 * height, `${theme}: ${lists - hud} of ${height}`);
+        assert.match(background, /^rgb\(/, "opaque");
+      }
+      const covered = await page.evaluate(() => window.kinesphereMap.labels.filter(({ x, width }) => x < 0 || x + width > innerWidth));
+      assert.deepEqual(covered, []);
+    });
+
+  test("nothing was complained of", async () => {
+    assert.equal(await watch.end(), 0);
+    assert.deepEqual(complaints.filter(isNoMissingServer), []);
+  });
+});
+
 /** Transforms of linear red, green and blue for kinds of colour vision (Machado, Oliveira and Fernandes 2009). */
 const sights = {
   usual: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],

@@ -1,7 +1,10 @@
 #include "base/standard_output.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "base/program_error.hpp"
@@ -39,6 +42,15 @@ void write_message(std::string_view text) {
 
 void check_messages() {
   if (message_error != 0) fail("standard error", message_error);
+}
+
+bool output_has_colour() {
+  return has_colour(::isatty(STDOUT_FILENO) != 0, std::getenv("NO_COLOR"), std::getenv("TERM"));
+}
+
+bool has_colour(bool is_terminal, const char* no_color, const char* term) {
+  const bool forbidden = no_color != nullptr && *no_color != '\0';
+  return is_terminal && !forbidden && term != nullptr && std::string_view(term) != "dumb";
 }
 
 }  // namespace kinesphere::program

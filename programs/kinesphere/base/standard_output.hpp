@@ -13,6 +13,13 @@ void write_output(std::string_view text);
 /// Flushes standard output. Throws ProgramError if any write failed. To be called before success is reported.
 void finish_output();
 
+/// Returns true if standard output is a terminal that shows colours, and NO_COLOR (no-color.org) does not
+/// forbid them.
+bool output_has_colour();
+/// Returns output_has_colour() for these: whether it is a terminal, and the values of NO_COLOR and TERM, null
+/// where they are not set.
+bool has_colour(bool is_terminal, const char* no_color, const char* term);
+
 template <class... Values>
 void print(fmt::format_string<Values...> format, Values&&... values) {
   write_output(fmt::format(format, std::forward<Values>(values)...));

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/json_text.hpp"
+#include "base/escaped_text.hpp"
 #include "base/program_error.hpp"
 
 namespace kinesphere::program {

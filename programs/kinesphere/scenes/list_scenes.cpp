@@ -1,5 +1,5 @@
 // `kinesphere scenes`: the built-in scenes, one line each.
-#include "scenes/list_scenes.hpp"
+#include "scenes/scene_commands.hpp"
 
 #include <fmt/format.h>
 

@@ -54,7 +54,7 @@ int replay(const ReplayOptions& options) {
   summary.row("verdict", "the same to the last bit");
   summary.row("hash", fmt::format("{:016x}", result->contact_hash));
   add_speed(summary, result->simulated_time, real_time.count());
-  print("{}", summary.text());
+  print("{}", summary.text(output_has_colour()));
   return exit_fine;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/chart.hpp"
 #include "base/help_text.hpp"
 #include "base/output_file.hpp"
 #include "base/output_paths.hpp"
@@ -19,6 +20,7 @@
 #include "scenes/busiest_bodies.hpp"
 #include "scenes/contact_log.hpp"
 #include "scenes/frames_xyz.hpp"
+#include "scenes/run_plot.hpp"
 #include "scenes/summary.hpp"
 
 namespace kinesphere::program {
@@ -35,19 +37,26 @@ double frame_interval_of(const RunOptions& options, const Scene& scene) {
 struct Attachments {
   std::unique_ptr<ContactLog> contacts;
   std::unique_ptr<FramesXyz> frames;
-  std::unique_ptr<OutputFile> recording;
+  std::unique_ptr<OutputFile> recording, picture;
+  std::unique_ptr<RunPlot> plot;
   std::unique_ptr<Progress> progress;
   std::vector<BusyBody> busiest;
+  std::optional<Event> hardest;  ///< the contact with the largest approach speed
   std::optional<AuditFinding> finding;
   double finding_time = 0.0;
 };
 
-Attachments attach(const RunOptions& options, const Scene& scene) {
+Attachments attach(const RunOptions& options, const std::string& name, const Scene& scene) {
   Attachments attached;
+  require_svg_name(options.plot);
   if (options.threads && options.audit) throw ProgramError("--audit: expected only without --threads");
   if (!options.contacts.empty()) attached.contacts = std::make_unique<ContactLog>(options.contacts);
   if (!options.frames.empty()) attached.frames = std::make_unique<FramesXyz>(options.frames, scene);
   if (!options.record.empty()) attached.recording = std::make_unique<OutputFile>(options.record);
+  if (!options.plot.empty()) {
+    attached.picture = std::make_unique<OutputFile>(options.plot);
+    attached.plot = std::make_unique<RunPlot>(name, scene);
+  }
   if (!options.quiet && !options.hash_only) {
     attached.progress = std::make_unique<Progress>(scene.world.start_time, scene.end_time);
   }
@@ -56,8 +65,14 @@ Attachments attach(const RunOptions& options, const Scene& scene) {
 
 SceneObserver observer_of(const RunOptions& options, const Scene& scene, Attachments& attached) {
   SceneObserver observer;
-  if (attached.contacts) {
-    observer.on_event = [&](const Event& event) { attached.contacts->write(event); };
+  if (attached.contacts || attached.plot || !(options.quiet || options.hash_only)) {
+    observer.on_event = [&](const Event& event) {
+      const bool is_contact = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+      if (is_contact && !(attached.hardest && event.approach_speed <= attached.hardest->approach_speed))
+        attached.hardest = event;
+      if (attached.contacts) attached.contacts->write(event);
+      if (attached.plot) attached.plot->add(event);
+    };
   }
   if (attached.frames) {
     observer.frame_interval = frame_interval_of(options, scene);
@@ -129,26 +144,9 @@ void add_paper_events(Summary& summary, const DetectorCounters& counters) {
   if (counters.rebuilds > 0) summary.row("rebuilds", grouped(counters.rebuilds), "of all bounds");
 }
 
-std::string summary_of(const SceneParameters& parameters, const RunOptions& options,
-                       const NamedDetector& detector, const Scene& scene, const SceneResult& result,
-                       double real_seconds) {
+/// Adds what the engine did.
+void add_internals(Summary& summary, const Scene& scene, const SceneResult& result) {
   const DetectorCounters& counters = result.counters;
-  const auto probes = static_cast<double>(counters.probes);
-  Summary summary;
-  add_scene(summary, parameters);
-  summary.row("detector", detector.name,
-              options.threads
-                  ? fmt::format("by itself, {} thread{}", *options.threads, *options.threads == 1 ? "" : "s")
-                  : "");
-  summary.row("simulated", fmt::format("{} s", number(result.simulated_time)),
-              fmt::format("{} body-seconds", number(result.body_time)));
-  summary.space();
-  add_events(
-      summary, result,
-      {.ends = scene.response == SceneResponse::pass_through, .zeno_guard = scene.resting_speed > 0.0});
-  summary.space();
-  summary.row("probes", grouped(counters.probes),
-              fmt::format("{} per body-second", number(probes / result.body_time)));
   add_steps(summary, counters);
   add_paper_events(summary, counters);
   if (counters.searches > 0) {
@@ -160,10 +158,38 @@ std::string summary_of(const SceneParameters& parameters, const RunOptions& opti
     summary.row("memory", grouped((result.memory->total() - result.memory->recording) / scene.bodies.size()),
                 "bytes per body");
   }
+}
+
+std::string summary_of(const SceneParameters& parameters, const RunOptions& options,
+                       const NamedDetector& detector, const Scene& scene, const SceneResult& result,
+                       const std::optional<Event>& hardest, double real_seconds) {
+  const DetectorCounters& counters = result.counters;
+  const auto probes = static_cast<double>(counters.probes);
+  Summary summary;
+  add_events(
+      summary, result,
+      {.ends = scene.response == SceneResponse::pass_through, .zeno_guard = scene.resting_speed > 0.0});
+  if (hardest) add_hardest(summary, *hardest);
   summary.space();
-  summary.row("hash", fmt::format("{:016x}", result.contact_hash));
+  summary.row("simulated", fmt::format("{} s", number(result.simulated_time)),
+              fmt::format("{} body-seconds", number(result.body_time)));
   add_speed(summary, result.simulated_time, real_seconds);
-  return summary.text();
+  summary.row("probes", grouped(counters.probes),
+              fmt::format("{} per body-second", number(probes / result.body_time)));
+  summary.space();
+  add_scene(summary, parameters);
+  if (options.verbose || options.threads) {
+    const std::string threads =
+        options.threads ? "by itself, " + counted(static_cast<std::uint64_t>(*options.threads), "thread")
+                        : "";
+    summary.row("detector", detector.name, threads);
+  }
+  summary.row("hash", fmt::format("{:016x}", result.contact_hash));
+  if (options.verbose) {
+    summary.space();
+    add_internals(summary, scene, result);
+  }
+  return summary.text(output_has_colour());
 }
 
 }  // namespace
@@ -179,6 +205,9 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
   command->add_option("--record", options.record, "Write a recording to this file, for `kinesphere replay`")
       ->type_name("FILE");
   command
+      ->add_option("--plot", options.plot, "Draw where contacts were, when and how fast, into this .svg file")
+      ->type_name("FILE");
+  command
       ->add_option("--frame-interval", options.frame_interval,
                    "Time between snapshots; a hundredth of the scene's when not given")
       ->check(finite_number());
@@ -192,6 +221,7 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
                     "Print the bodies that cost most probes, with the reasons and what helps (one thread)");
   command->add_flag("--audit", options.audit, "Check the detector's own records before every event (slow)");
   command->add_flag("--hash-only", options.hash_only, "Print the hash of the contacts and nothing else");
+  command->add_flag("--verbose", options.verbose, "Print what the engine did, too");
   command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
   add_examples(*command, {"kinesphere run paper1", "kinesphere run gas --bodies 2000 --contacts events.csv",
                           "kinesphere run my_scene.json --seconds 5 --record run.ksr"});
@@ -201,10 +231,12 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
 int run(const RunOptions& options, const NamedDetector& detector) {
   const SceneSource source = options.scene.source();
   const Scene scene = make_scene(source);
-  const OutputPath outputs[] = {
-      {"--contacts", options.contacts}, {"--frames", options.frames}, {"--record", options.record}};
+  const OutputPath outputs[] = {{"--contacts", options.contacts},
+                                {"--frames", options.frames},
+                                {"--record", options.record},
+                                {"--plot", options.plot}};
   check_outputs(outputs, {&source.file, 1});
-  Attachments attached = attach(options, scene);
+  Attachments attached = attach(options, source.parameters.name, scene);
   const SceneObserver observer = observer_of(options, scene, attached);
 
   std::optional<Workers> workers;
@@ -228,10 +260,13 @@ int run(const RunOptions& options, const NamedDetector& detector) {
   commit(attached.contacts);
   commit(attached.frames);
   commit(attached.recording);
+  if (attached.plot) attached.picture->write(attached.plot->svg());
+  commit(attached.picture);
   if (options.hash_only) {
     print("{:016x}\n", result.contact_hash);
   } else if (!options.quiet) {
-    print("{}", summary_of(source.parameters, options, detector, scene, result, real_time.count()));
+    print("{}", summary_of(source.parameters, options, detector, scene, result, attached.hardest,
+                           real_time.count()));
   }
   if (options.explain && !options.hash_only)
     print("{}", text_of_busiest(attached.busiest, result.counters.probes));

@@ -15,12 +15,14 @@ struct RunOptions {
   std::string contacts;
   std::string frames;
   std::string record;
+  std::string plot;
   std::optional<double> frame_interval;
   std::optional<int> threads;
   bool audit = false;
   bool explain = false;
   bool hash_only = false;
   bool quiet = false;
+  bool verbose = false;
 };
 
 /// `options` must live until the command line has been parsed.

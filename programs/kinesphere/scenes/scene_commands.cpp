@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "scenes/list_scenes.hpp"
 #include "scenes/replay.hpp"
 #include "scenes/run.hpp"
 #include "scenes/verify.hpp"

@@ -10,12 +10,34 @@
 #include "scenes/scene_file.hpp"
 
 namespace kinesphere::program {
+namespace {
 
-void Summary::row(std::string label, std::string value, std::string note) {
-  rows_.push_back({std::move(label), std::move(value), std::move(note)});
+std::string_view sequence_of(Tone tone) {
+  switch (tone) {
+    case Tone::strong:
+      return "\x1b[1m";
+    case Tone::good:
+      return "\x1b[32m";
+    case Tone::bad:
+      return "\x1b[1;31m";
+    default:
+      return {};
+  }
 }
 
-std::string Summary::text() const {
+/// Returns the numbers of the two bodies of an event, or of the one at a wall.
+std::string bodies_text(const Event& event) {
+  if (event.second == no_body) return fmt::format("{} at a wall", event.first.index);
+  return fmt::format("{} and {}", event.first.index, event.second.index);
+}
+
+}  // namespace
+
+void Summary::row(std::string label, std::string value, std::string note, Tone tone) {
+  rows_.push_back({std::move(label), std::move(value), std::move(note), tone});
+}
+
+std::string Summary::text(bool colour) const {
   std::size_t label_width = 0;
   std::size_t value_width = 0;
   for (const Row& row : rows_) {
@@ -27,14 +49,13 @@ std::string Summary::text() const {
     std::string line =
         fmt::format("{:<{}}  {:<{}}  {}", row.label, label_width, row.value, value_width, row.note);
     line.erase(line.find_last_not_of(' ') + 1);
+    if (const std::string_view sequence = sequence_of(row.tone); colour && !sequence.empty()) {
+      constexpr std::string_view plain = "\x1b[0m";
+      line.insert(label_width + 2 + row.value.size(), plain);
+      line.insert(label_width + 2, sequence);
+    }
     text += line + '\n';
   }
-  return text;
-}
-
-std::string grouped(std::uint64_t count) {
-  std::string text = std::to_string(count);
-  for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, 1, ',');
   return text;
 }
 
@@ -66,7 +87,7 @@ void add_events(Summary& summary, const SceneResult& result, const EventRows& ro
     std::string note =
         fmt::format("{} per body-second", number(static_cast<double>(begun) / result.body_time));
     if (rows.ends) note += fmt::format(", {} ended", grouped(counters.count(end)));
-    summary.row(std::move(label), grouped(begun), std::move(note));
+    summary.row(std::move(label), grouped(begun), std::move(note), Tone::strong);
   };
   row("contacts", EventKind::contact_begin, EventKind::contact_end);
   row("wall contacts", EventKind::wall_begin, EventKind::wall_end);
@@ -75,7 +96,7 @@ void add_events(Summary& summary, const SceneResult& result, const EventRows& ro
   }
   if (counters.jammed_contacts > 0) {
     summary.row("jammed", grouped(counters.jammed_contacts),
-                "contacts without room, which lose energy: choose a smaller tolerance");
+                "contacts without room, which lose energy: choose a smaller tolerance", Tone::bad);
   }
   const std::uint64_t guards = counters.count(EventKind::zeno_guard);
   if (guards + counters.zeno_steps > 0 || rows.zeno_guard) {
@@ -84,8 +105,15 @@ void add_events(Summary& summary, const SceneResult& result, const EventRows& ro
                             grouped(counters.zeno_steps)));
   }
   if (const auto count = counters.count(EventKind::bound_violation); count > 0) {
-    summary.row("bound violations", grouped(count), "states that broke a body's promise");
+    summary.row("bound violations", grouped(count),
+                "states that broke a body's promise: contacts may have been missed", Tone::bad);
   }
+}
+
+void add_hardest(Summary& summary, const Event& event) {
+  summary.row("hardest", number(event.approach_speed),
+              fmt::format("approach speed of {}, at {} s", bodies_text(event), number(event.time)),
+              Tone::strong);
 }
 
 void add_speed(Summary& summary, double simulated_seconds, double real_seconds) {

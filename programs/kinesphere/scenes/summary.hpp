@@ -5,29 +5,32 @@
 #include <string>
 #include <vector>
 
+#include "base/number_text.hpp"
 #include "simulation/run/run_scene.hpp"
 #include "simulation/scene/make_scene.hpp"
 
 namespace kinesphere::program {
 
+/// How a value stands out on a terminal with colours.
+enum class Tone { plain, strong, good, bad };
+
 class Summary {
  public:
-  void row(std::string label, std::string value, std::string note = "");
+  void row(std::string label, std::string value, std::string note = "", Tone tone = Tone::plain);
   /// Adds an empty line.
   void space() { rows_.emplace_back(); }
   /// Returns the rows: labels on the left; counts and values right-aligned in one column if a note follows
-  /// them.
-  std::string text() const;
+  /// them. With `colour` values have the escape sequences of terminals (ECMA-48) for their tones.
+  std::string text(bool colour = false) const;
 
  private:
   struct Row {
     std::string label, value, note;
+    Tone tone = Tone::plain;
   };
   std::vector<Row> rows_;
 };
 
-/// Returns 1234567 as "1,234,567".
-std::string grouped(std::uint64_t count);
 /// Returns "12.3 %"; "-" if `whole` is 0.
 std::string percent(double part, double whole);
 /// Returns four significant digits; large numbers as integers, with thousands separators; "-" for a number
@@ -43,6 +46,8 @@ struct EventRows {
 };
 /// Adds contacts, walls and errors.
 void add_events(Summary& summary, const SceneResult& result, const EventRows& rows);
+/// Adds the contact with the largest approach speed.
+void add_hardest(Summary& summary, const Event& event);
 /// Adds real time, in all and for each simulated second, and the real-time factor: simulated over real time.
 void add_speed(Summary& summary, double simulated_seconds, double real_seconds);
 

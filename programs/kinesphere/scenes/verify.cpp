@@ -31,7 +31,7 @@ int verify(const VerifyOptions& options, const NamedDetector& detector) {
   summary.row("seconds", number(source.parameters.seconds));
   summary.space();
   add_comparison(summary, comparison);
-  print("{}", summary.text());
+  print("{}", summary.text(output_has_colour()));
   return comparison.agrees() ? exit_fine : exit_disagreement;
 }
 
@@ -43,7 +43,8 @@ void add_comparison(Summary& summary, const ContactComparison& comparison) {
   summary.row("missed", grouped(comparison.missed), "in the oracle only");
   summary.row("invented", grouped(comparison.invented), "in the detector only");
   if (comparison.oracle_faults > 0) summary.row("oracle faults", grouped(comparison.oracle_faults));
-  summary.row("verdict", comparison.agrees() ? "detector and oracle agree" : "detector and oracle DISAGREE");
+  summary.row("verdict", comparison.agrees() ? "detector and oracle agree" : "detector and oracle DISAGREE",
+              "", comparison.agrees() ? Tone::good : Tone::bad);
   if (comparison.first_difference) summary.row("first difference", *comparison.first_difference);
 }
 

@@ -11,7 +11,7 @@ namespace kinesphere::program {
 /// supports GET and HEAD with whole contents: no ranges, bodies, compression or kept connections. A slow or
 /// hostile client delays neither other clients nor the program: at most 64 connections are open, and a new
 /// one closes the oldest; a request takes 5 s and 16 kB at most; content made for single clients takes 64 MB
-/// in all, or one content if that is larger. docs/watch.md has the threat model.
+/// in all, or one content if that is larger. docs/watch-running.md has the threat model.
 /// No library is used: Debian's cpp-httplib 0.11 gives each connection a thread for as long as the client
 /// likes, buffers bodies before it routes, and passes unchecked ranges on.
 class LocalServer {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "tracks/xml_text.hpp"
+#include "base/escaped_text.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "base/json_text.hpp"
+#include "base/escaped_text.hpp"
 #include "tracks/track_cells.hpp"
 
 namespace kinesphere::program {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "base/json_text.hpp"
+#include "base/escaped_text.hpp"
 #include "tracks/coverage_summary.hpp"
 #include "tracks/track_cells.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "base/json_text.hpp"
+#include "base/escaped_text.hpp"
 
 namespace kinesphere::program {
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/chart.hpp"
 #include "base/help_text.hpp"
 #include "base/input_file.hpp"
 #include "base/number_text.hpp"
@@ -186,8 +187,7 @@ class TracksFiles {
                                   {"--summary", options.summary},
                                   {"--plot", options.plot}};
     check_outputs(outputs, options.files);
-    if (!options.plot.empty() && std::filesystem::path(options.plot).extension() != ".svg")
-      throw ProgramError(fmt::format("{}: expected a name that ends in .svg", options.plot));
+    require_svg_name(options.plot);
     if (!options.contacts.empty())
       contacts_.emplace(options.contacts,
                         ApproachColumns{.by_cylinder = options.separation.starts_with("cylinder"),

@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "base/json_text.hpp"
+#include "base/escaped_text.hpp"
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
 #include "kinesphere/recording.hpp"

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "base/json_text.hpp"
+#include "base/escaped_text.hpp"
 #include "base/program_error.hpp"
 #include "scenes/summary.hpp"
 #include "tracks/track_scene.hpp"

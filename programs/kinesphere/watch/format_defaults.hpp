@@ -24,7 +24,7 @@ struct FormatDefaults {
   double rest_speed = 0.0;      ///< a track that is no faster for a while is at rest; 0: none is
   bool has_steady_rate = true;  ///< tracks report about as often whatever they do
 };
-/// docs/watch.md cites the sources of the values.
+/// docs/watch-streams.md cites the sources of the values.
 FormatDefaults defaults_of(StreamFormat format);
 
 }  // namespace kinesphere::program

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "base/ascii_text.hpp"
+#include "base/chart.hpp"
 #include "base/output_file.hpp"
 #include "base/output_paths.hpp"
 #include "base/program_error.hpp"
@@ -34,7 +35,9 @@ void check(const WatchOptions& options) {
         shell_word(options.more_files.front())));
   const OutputPath outputs[] = {{"--summary", options.summary},
                                 {"--snapshot", options.snapshot},
+                                {"--plot", options.plot},
                                 {"--alerts", is_nats_address(options.alerts) ? "" : options.alerts}};
+  require_svg_name(options.plot);
   const bool is_file = options.file != "-" && !is_nats_address(options.file) &&
                        !is_udp_address(options.file) && !is_tcp_address(options.file);
   const std::string inputs[] = {is_file ? options.file : ""};
@@ -63,8 +66,9 @@ void check_end(const WatchLoop& watch) {
 
 int watch(const WatchOptions& options) {
   check(options);
-  std::optional<OutputFile> summary;
+  std::optional<OutputFile> summary, plot;
   if (!options.summary.empty()) summary.emplace(options.summary);
+  if (!options.plot.empty()) plot.emplace(options.plot);
   WatchLoop watch(options);
   const WatchView& view = watch.view();
   const auto started = std::chrono::steady_clock::now();
@@ -76,6 +80,10 @@ int watch(const WatchOptions& options) {
         .warnings = warnings,
         .real_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count()};
     if (!options.quiet) write_message(watch_summary_text(view, end));
+    if (plot) {
+      plot->write(watch.plot());
+      plot->commit();
+    }
     if (!summary) return;
     summary->write(watch_summary_json(view, end));
     summary->commit();

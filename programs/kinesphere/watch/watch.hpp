@@ -39,6 +39,7 @@ struct WatchOptions {
   std::string alerts;  ///< empty: standard output
   std::string share;
   std::string summary;
+  std::string plot;
   std::optional<int> serve;
   bool text = false;
   bool quiet = false;

@@ -164,6 +164,8 @@ void add_reading(CLI::App& command, WatchOptions& options) {
 void add_output(CLI::App& command, WatchOptions& options) {
   OptionGroup group(command, "What comes out");
   group.add("--summary", options.summary, "FILE", "Write the summary to this file, as JSON");
+  group.add("--plot", options.plot, "FILE",
+            "Draw a map, and when which pairs had alerts, into this .svg file at the end");
   group
       .add("--serve", options.serve, nullptr,
            "Serve a map, the state and metrics on this port of 127.0.0.1; 0 for any that is free")

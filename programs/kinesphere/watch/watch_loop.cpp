@@ -71,8 +71,10 @@ WatchLoop::WatchLoop(const WatchOptions& options)
     : options_(options),
       begun_from_(snapshot_of(options)),
       reader_(options, stop_, begun_from_ ? &begun_from_->reader : nullptr),
-      pipeline_(settings_of(options, reader_.format().value_or(any_format), reader_.source().name()),
-                [this](std::uint64_t share, std::string_view line) { alerts_->write(share, line); }),
+      pipeline_(
+          settings_of(options, reader_.format().value_or(any_format), reader_.source().name()),
+          [this](std::uint64_t share, std::string_view line) { alerts_->write(share, line); },
+          !options.plot.empty()),
       by_machine_(view().settings.clock == WatchSettings::Clock::machine),
       warnings_(view(), is_file(), options.quiet),
       snapshot_interval_(snapshot_interval(options)) {

@@ -32,6 +32,8 @@ class WatchLoop {
   void close() { server_.reset(); }
 
   const WatchView& view() const { return pipeline_.view(); }
+  /// Returns an SVG picture of what was watched. Precondition: the options have --plot.
+  std::string plot() const { return pipeline_.plot(); }
   std::vector<Warning> warnings() { return warnings_.all(); }
   bool is_file() const { return reader_.is_file(); }
   /// Returns "unknown" before any text has arrived.

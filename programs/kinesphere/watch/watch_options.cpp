@@ -250,8 +250,9 @@ GivenOptions given_options(const WatchOptions& options) {
   const std::string& said = options.choices.hints.format;
   const auto format = format_named(said);
   const bool is_preset = format && is_table(*format) && name_of(*format) != said;
-  constexpr std::string_view others[] = {"--help",           "--most-malformed", "--snapshot", "--summary",
-                                         "--snapshot-every", "--alerts",         "--serve",    "--quiet"};
+  constexpr std::string_view others[] = {"--help",    "--most-malformed", "--snapshot",
+                                         "--summary", "--plot",           "--snapshot-every",
+                                         "--alerts",  "--serve",          "--quiet"};
   GivenOptions given;
   for (const CLI::Option* const option : options.command->get_options()) {
     const std::string name = option->get_name();

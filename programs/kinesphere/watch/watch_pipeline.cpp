@@ -9,10 +9,22 @@
 
 namespace kinesphere::program {
 
-WatchPipeline::WatchPipeline(WatchSettings settings, AlertFn alert)
+namespace {
+
+std::unique_ptr<AlertDesk::Next> alerts_of(const WatchSettings& settings, const WatchView& view,
+                                           AlertFn alert, bool draws) {
+  auto lines =
+      settings.text ? make_text_alerts(view, std::move(alert)) : make_json_alerts(view, std::move(alert));
+  if (!draws) return lines;
+  return std::make_unique<WatchPlot>(view, std::move(lines));
+}
+
+}  // namespace
+
+WatchPipeline::WatchPipeline(WatchSettings settings, AlertFn alert, bool draws)
     : settings_(std::move(settings)),
-      alerts_(settings_.text ? make_text_alerts(view_, std::move(alert))
-                             : make_json_alerts(view_, std::move(alert))),
+      alerts_(alerts_of(settings_, view_, std::move(alert), draws)),
+      plot_(draws ? static_cast<WatchPlot*>(alerts_.get()) : nullptr),
       clock_(settings_, counts_, *this),
       tracks_(settings_, counts_, clock_, [this](const std::string& reason) { refuse(reason); }),
       pairs_(settings_, counts_, tracks_, desk_),
@@ -73,6 +85,7 @@ void WatchPipeline::refuse(std::size_t line, const std::string& reason) {
 
 void WatchPipeline::end_record() {
   if (pairs_.monitor()) pairs_.settle();
+  if (plot_ != nullptr) plot_->look();
 }
 
 void WatchPipeline::finish() {

@@ -11,6 +11,7 @@
 #include "watch/clock/report_clock.hpp"
 #include "watch/monitor/pair_monitor.hpp"
 #include "watch/output/alert_lines.hpp"
+#include "watch/output/watch_plot.hpp"
 #include "watch/policy/alert_desk.hpp"
 #include "watch/tracks/watched_tracks.hpp"
 
@@ -23,7 +24,8 @@ namespace kinesphere::program {
 /// Holds the whole state of a watch, except what a format keeps from earlier lines.
 class WatchPipeline final : public ReportSink, private ReportClock::Next {
  public:
-  WatchPipeline(WatchSettings settings, AlertFn alert);
+  /// With `draws` it notes what plot() draws.
+  WatchPipeline(WatchSettings settings, AlertFn alert, bool draws = false);
   WatchPipeline(const WatchPipeline&) = delete;
   WatchPipeline& operator=(const WatchPipeline&) = delete;
 
@@ -52,6 +54,8 @@ class WatchPipeline final : public ReportSink, private ReportClock::Next {
 
   /// Returns what the stages know. It is valid as long as the pipeline.
   const WatchView& view() const { return view_; }
+  /// Returns an SVG picture of the watch. Precondition: it draws.
+  std::string plot() const { return plot_->svg(); }
   /// Returns the warnings of the format since the last call.
   std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
@@ -68,6 +72,7 @@ class WatchPipeline final : public ReportSink, private ReportClock::Next {
   WatchSettings settings_;
   WatchCounts counts_;
   std::unique_ptr<AlertDesk::Next> alerts_;
+  WatchPlot* plot_ = nullptr;  ///< alerts_, if it draws
   ReportClock clock_;
   WatchedTracks tracks_;
   PairMonitor pairs_;

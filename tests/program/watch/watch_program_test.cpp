@@ -344,7 +344,7 @@ TEST_F(WatchProgram, ReadsGzippedAndStandardInput) {
 
 constexpr std::string_view two_aircraft = R"({ "now" : 1700000000.1, "aircraft" : [
 {"hex":"4ca1fa","alt_baro":35000,"gs":450,"track":90,"baro_rate":0,"lat":51.5,"lon":-0.1,"seen_pos":0.2,"rc":75,"nac_v":2},
-{"hex":"400a01","alt_baro":35000,"gs":450,"track":270,"baro_rate":0,"lat":51.5,"lon":0.1,"seen_pos":0.5,"nac_p":10,"nac_v":2},
+{"hex":"400a01","flight":"BAW\u003c7 ","alt_baro":35000,"gs":450,"track":270,"baro_rate":0,"lat":51.5,"lon":0.1,"seen_pos":0.5,"nac_p":10,"nac_v":2},
 {"hex":"400a02","alt_baro":35000,"gs":450,"track":270,"baro_rate":0,"lat":51.5,"lon":20,"seen_pos":0.5,"nac_p":10}]}
 {"now": 1700000001.1, "aircraft": [
 {"hex":"4ca1fa","alt_baro":35000,"gs":450,"track":90,"baro_rate":0,"lat":51.5,"lon":-0.1,"seen_pos":1.2,"rc":75,"nac_v":2}]}
@@ -356,6 +356,8 @@ TEST_F(WatchProgram, WatchesAircraft) {
   ASSERT_GE(lines.size(), 1u);
   EXPECT_EQ(lines[0]["verdict"], "within");
   EXPECT_EQ(lines[0]["first"], "400a01");
+  EXPECT_EQ(lines[0]["first_name"], "BAW<7");
+  EXPECT_FALSE(lines[0].contains("second_name")) << "no name has been told";
   EXPECT_EQ(lines[0]["time"], 1700000000.1);
   EXPECT_EQ(lines[0]["rests_on"]["first"],
             "position: 2.5 times the 95 % of nac_p; height: 78.81 (default of readsb); velocity: 2.5 times "
@@ -368,6 +370,35 @@ TEST_F(WatchProgram, WatchesAircraft) {
   EXPECT_EQ(summary_["outside"], 1);
   EXPECT_EQ(summary_["repeated"], 1);
   EXPECT_EQ(summary_["format"], "readsb");
+}
+
+TEST_F(WatchProgram, DrawsAMapAndWhenPairsHadAlerts) {
+  const std::string file = write("aircraft.json", two_aircraft),
+                    options = file + " --separation cylinder:10NM:1000ft";
+  const std::string alerts = run("watch " + options).out;
+  const ProgramRun drawn = run("watch " + options + " --plot " + path("w.svg"));
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_EQ(drawn.out, alerts);
+  const std::string svg = read_text(path("w.svg"));
+  EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+  for (const char* text :
+       {"2 tracks, 1 pair with alerts", "longitude (degrees)", "time from 2023-11-14 on (UTC)", ">22:13:21<",
+        "BAW&lt;7 and 4ca1fa<", "height=\"14.0\""})
+    EXPECT_NE(svg.find(text), std::string::npos) << text << "\n" << svg;
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+
+  // The two are within from 8.5 to 11.5 s, about: that is drawn although its end is not told.
+  ASSERT_EQ(run("watch " + write("s.jsonl", head_on()) + " --separation sphere:30 --plot " + path("h.svg") +
+                promises)
+                .exit_code,
+            0);
+  const std::string of_pair = read_text(path("h.svg"));
+  const std::size_t bar = of_pair.find("height=\"14.0\"");
+  ASSERT_NE(bar, std::string::npos);
+  const std::size_t width = of_pair.rfind("width=\"", bar) + 7;
+  EXPECT_NEAR(std::stod(of_pair.substr(width)), 370.0 * 3.0 / 20.5, 30.0);
+  EXPECT_NE(of_pair.find("time (s)"), std::string::npos);
+  expect_wrong_input("watch " + options + " --plot " + path("w.png"), {"w.png", ".svg"});
 }
 
 TEST_F(WatchProgram, WatchesVesselsWithDates) {

@@ -44,6 +44,8 @@ export class Chart {
   colours: Colours = coloursOfPage();
   /** Seconds that lines extend ahead of tracks. */
   lookAhead = 0;
+  /** The texts of the latest picture, and the rectangles that they cover; no two of them overlap. */
+  readonly labels: { text: string; x: number; y: number; width: number; height: number }[] = [];
   showNames = true;
   showNeeds = false;
   units = new Units("plain");
@@ -83,6 +85,7 @@ export class Chart {
     context.fillStyle = colours.ground;
     context.fillRect(0, 0, view.width, view.height);
     const taken = new Taken();
+    this.labels.length = 0;
     this.room = roomOf(view, scene);
     this.dotSize = this.room < 12 ? 1.8 : this.room < 30 ? 2.7 : 3.5;
     if (plane !== null) this.coast.draw(context, view, plane, colours);
@@ -92,7 +95,7 @@ export class Chart {
     const byKind: Record<Kind, DrawnTrack[]> = { stale: [], track: [], undecided: [], predicted: [], within: [] };
     for (const drawn of scene.tracks.values()) byKind[kindOf(drawn)].push(drawn);
     for (const kind of kinds) this.drawBounds(view, byKind[kind], colours[kind]);
-    this.drawSeparations(view, scene, chosen);
+    this.drawSeparations(view, scene, chosen, taken);
     this.drawPairs(view, scene.pairs, chosenPair);
     this.drawLookAhead(view, scene);
     this.drawApproaches(view, scene.pairs, chosenPair);
@@ -100,8 +103,9 @@ export class Chart {
     if (this.showNeeds) this.drawNeeds(view, scene);
     this.drawChosen(view, scene, chosen, chosenPair);
     const texts = chosenPair === null ? scene.pairs : [chosenPair, ...scene.pairs.filter((pair) => pair !== chosenPair)];
-    this.drawTexts(view, texts.slice(0, mostTexts), taken);
-    if (this.showNames) this.drawNames(view, scene, chosen, chosenPair, taken);
+    const dots = dotsOf(view, scene);
+    this.drawTexts(view, texts.slice(0, mostTexts), taken, dots);
+    if (this.showNames) this.drawNames(view, scene, chosen, chosenPair, taken, dots);
   }
 
   private drawGrid(view: View, plane: EarthPlane | null, taken: Taken): void {
@@ -128,7 +132,7 @@ export class Chart {
       if (at === null) continue;
       const [x, y] = upright ? [at + 4, atY] : [atX, at - 4];
       if (x < view.insets.left || x > view.width - view.insets.right - 40 || y < view.insets.top + 10 || y > view.height - 4) continue;
-      if (taken.take(x, y - 11, this.widthOf(label), 13)) context.fillText(label, x, y);
+      if (this.takeFor(label, taken, x, y - 11, this.widthOf(label), 13)) context.fillText(label, x, y);
     }
   }
 
@@ -158,7 +162,7 @@ export class Chart {
   }
 
   /** Draws the separations around the chosen track: a track inside is within one. */
-  private drawSeparations(view: View, scene: Scene, chosen: Chosen): void {
+  private drawSeparations(view: View, scene: Scene, chosen: Chosen, taken: Taken): void {
     const { context, colours } = this;
     const drawn = scene.tracks.get(chosen.track ?? "");
     if (drawn === undefined) return;
@@ -175,7 +179,9 @@ export class Chart {
         context.beginPath();
         context.arc(x, y, pixels, 0, fullTurn);
         context.stroke();
-        if (pixels > 24) context.fillText(shortName(name), x - this.widthOf(shortName(name)) / 2, y - pixels - 4);
+        if (pixels <= 24) continue;
+        const [text, width] = [shortName(name), this.widthOf(shortName(name))];
+        if (this.takeFor(text, taken, x - width / 2, y - pixels - 15, width, 13)) context.fillText(text, x - width / 2, y - pixels - 4);
       }
     }
     context.setLineDash([]);
@@ -256,7 +262,7 @@ export class Chart {
   }
 
   /** Writes distance and time to go at closest approaches, and vertical distances at the lines of open pairs. */
-  private drawTexts(view: View, pairs: readonly DrawnPair[], taken: Taken): void {
+  private drawTexts(view: View, pairs: readonly DrawnPair[], taken: Taken, dots: Taken): void {
     const { context, colours, units } = this;
     context.font = smallFont;
     context.lineJoin = "round";
@@ -265,15 +271,15 @@ export class Chart {
       const { places, approach, isPredicted, concern } = drawn;
       if (places === null) continue;
       if (approach !== null && (isPredicted || drawn === pairs[0]))
-        this.write(view, approach.places, `CPA ${approachText(approach, units)}`, colours[concern], taken, places);
+        this.write(view, approach.places, `CPA ${approachText(approach, units)}`, colours[concern], taken, dots, places);
       if (drawn.above !== null && drawn.pair.verdict !== "apart")
-        this.write(view, places, units.above(drawn.above.difference, drawn.above.rate), colours[drawn.pair.verdict], taken);
+        this.write(view, places, units.above(drawn.above.difference, drawn.above.rate), colours[drawn.pair.verdict], taken, dots);
     }
     context.textBaseline = "alphabetic";
   }
 
-  /** Writes a text beside the middle of a line, if there is room; best where it hides no way to `ends`. */
-  private write(view: View, [one, other]: readonly [Spot, Spot], text: string, colour: string, taken: Taken, ends: readonly Spot[] = []): void {
+  /** Writes a text beside the middle of a line, if there is room and no dot; best where it hides no way to `ends`. */
+  private write(view: View, [one, other]: readonly [Spot, Spot], text: string, colour: string, taken: Taken, dots: Taken, ends: readonly Spot[] = []): void {
     const { context, colours } = this;
     const [x, y] = view.toScreen((one.x + other.x) / 2, (one.y + other.y) / 2);
     if (isFar(view, x, y, 0)) return;
@@ -284,8 +290,10 @@ export class Chart {
       Math.max(-1, ...ways.map(([wayX, wayY]) => wayX * sideX + wayY * sideY));
     const spots: (readonly [number, number, number, number])[] =
       [[10, 0, 1, 0], [-10 - width, 0, -1, 0], [-width / 2, -19, 0, -1], [-width / 2, 19, 0, 1], [14, 17, 0.9, 0.4], [14, -17, 0.9, -0.4]];
-    const spot = spots.sort((a, b) => hidden(a) - hidden(b))
-      .find(([dx, dy]) => isBetweenPanels(view, x + dx, width) && taken.take(x + dx - 2, y + dy - 7, width + 4, 14));
+    const far = farSpots(width).map(([dx, dy]) => [dx, dy, 0, Math.sign(dy)] as const);
+    const spot = [...spots.sort((a, b) => hidden(a) - hidden(b)), ...far]
+      .find(([dx, dy]) => isBetweenPanels(view, x + dx, width) && dots.isFree(x + dx, y + dy - 7, width, 14) &&
+        this.takeFor(text, taken, x + dx - 2, y + dy - 7, width + 4, 14));
     if (spot === undefined) return;
     context.strokeStyle = colours.ground;
     context.lineWidth = 3.5;
@@ -393,19 +401,17 @@ export class Chart {
   }
 
   /** Draws the names of the most important tracks first, while there is room. */
-  private drawNames(view: View, scene: Scene, chosen: Chosen, chosenPair: DrawnPair | null, taken: Taken): void {
+  private drawNames(view: View, scene: Scene, chosen: Chosen, chosenPair: DrawnPair | null, taken: Taken, dots: Taken): void {
     const { context, colours } = this;
     const important = new Set([chosen.track, chosen.hovered, chosenPair?.pair.first, chosenPair?.pair.second, scene.state.own]);
     const rank = ({ track, concern, need }: DrawnTrack) =>
       important.has(track.id) ? 0 : concern !== null ? ranks[concern] : need !== null && this.showNeeds ? 4 : track.stale ? 6 : 5;
-    const dots = new Taken();
     const inSight: { drawn: DrawnTrack; x: number; y: number; rank: number }[] = [];
     for (const drawn of scene.tracks.values()) {
       const place = drawn.track.places[0];
       if (place === undefined) continue;
       const [x, y] = view.toScreen(place.x, place.y);
       if (!isFar(view, x, y, 0)) inSight.push({ drawn, x, y, rank: rank(drawn) });
-      dots.occupy(x - 4, y - 4, 8, 8);
     }
     inSight.sort((a, b) => a.rank - b.rank);
     context.font = font;
@@ -422,13 +428,21 @@ export class Chart {
       const height = hasHeights && knowsHeight(place, scene.state) ? `  ${this.units.altitude(place.alt ?? place.z)}` : "";
       const width = this.widthOf(name) + (height === "" ? 0 : this.widthOf(height));
       const sides = headingOf(drawn, chosenPair) > 0 ? [-12 - width, 12] as const : [12, -12 - width] as const;
-      const spots = ([[sides[0], 0], [-width / 2, -19], [-width / 2, 19], [sides[1], 0], [10, -14], [10, 14]] as const)
-        .filter(([dx]) => isBetweenPanels(view, x + dx, width));
-      // Names of unimportant tracks must not hide a dot; those of important ones are there anyway.
-      const spot = spots.find(([dx, dy]) => (rank < 3 || dots.isFree(x + dx, y + dy - 7, width, 14)) && taken.take(x + dx, y + dy - 7, width, 14)) ??
-        (rank === 0 ? spots[0] : undefined);
+      const near: (readonly [number, number])[] = [[sides[0], 0], [-width / 2, -19], [-width / 2, 19], [sides[1], 0], [10, -14], [10, 14]];
+      // Important names go farther for room, with a line to their dots; others must not hide a dot.
+      const far = rank < 3 ? farSpots(width) : [];
+      const spot = [...near, ...far].filter(([dx]) => isBetweenPanels(view, x + dx, width))
+        .find(([dx, dy]) => (rank < 3 || dots.isFree(x + dx, y + dy - 7, width, 14)) && this.takeFor(name, taken, x + dx, y + dy - 7, width, 14));
       if (spot === undefined) continue;
       const [atX, atY] = [x + spot[0], y + spot[1]];
+      if (far.includes(spot)) {
+        context.strokeStyle = colours["grid-ink"];
+        context.lineWidth = 1;
+        context.beginPath();
+        context.moveTo(x, y);
+        context.lineTo(Math.max(atX, Math.min(x, atX + width)), atY - 7 * Math.sign(spot[1]));
+        context.stroke();
+      }
       context.strokeStyle = colours.ground;
       context.lineWidth = 3;
       context.strokeText(name + height, atX, atY);
@@ -465,6 +479,13 @@ export class Chart {
     if (!isFar(view, atX, atY, size)) this.context.drawImage(stamp, atX - size / 2, atY - size / 2, size, size);
   }
 
+  /** Takes a rectangle for a text. Returns false, without taking it, if a part is taken already. */
+  private takeFor(text: string, taken: Taken, x: number, y: number, width: number, height: number): boolean {
+    if (!taken.take(x, y, width, height)) return false;
+    this.labels.push({ text, x, y, width, height });
+    return true;
+  }
+
   /** Width in pixels, in the context's font. */
   private widthOf(text: string): number {
     const key = `${this.context.font} ${text}`;
@@ -476,6 +497,22 @@ export class Chart {
     }
     return width;
   }
+}
+
+/** Returns the squares of the dots of all tracks. */
+function dotsOf(view: View, scene: Scene): Taken {
+  const dots = new Taken();
+  for (const { x, y } of placesOf(scene.tracks.values())) {
+    const [atX, atY] = view.toScreen(x, y);
+    if (!isFar(view, atX, atY, 0)) dots.occupy(atX - 4, atY - 4, 8, 8);
+  }
+  return dots;
+}
+
+/** Returns places of a text of this width above and below its dot, the nearest first. */
+function farSpots(width: number): (readonly [number, number])[] {
+  return [34, 50, 66, 82].flatMap((dy) => ([-width / 2, 10, -10 - width] as const)
+    .flatMap((dx) => ([[dx, -dy], [dx, dy]] as const)));
 }
 
 /**
@@ -496,10 +533,10 @@ function roomOf(view: View, scene: Scene | null): number {
   return Math.sqrt(width * height / inSight);
 }
 
-/** Returns distance, vertical distance and time to go. */
-export function approachText({ distance, above, seconds }: Approach, units: Units): string {
+/** Returns distance and how far it may be off, vertical distance and time to go. */
+export function approachText({ distance, error, above, seconds }: Approach, units: Units): string {
   const vertical = above === null ? "" : `, ${units.above(above, 0)}`;
-  return `${units.length(distance)}${vertical} · ${durationText(seconds)}`;
+  return `${units.lengthWithin(distance, error)}${vertical} · ${durationText(seconds)}`;
 }
 
 /** Returns true if a text that begins there is not covered by the panels at the sides. */

@@ -156,8 +156,8 @@ export class Lists {
 
   private approachLine({ approach, pair }: DrawnPair): string {
     if (approach === null) return pair.closest_distance === null ? "" : "closest now";
-    const { above, distance, seconds } = approach;
-    return `CPA ${this.units.length(distance)}${above === null ? "" : `, ${this.units.above(above, 0)}`} · in ${durationText(seconds)}`;
+    const { above, distance, error, seconds } = approach;
+    return `CPA ${this.units.lengthWithin(distance, error)}${above === null ? "" : `, ${this.units.above(above, 0)}`} · in ${durationText(seconds)}`;
   }
 
   /** Returns the present distance: horizontal, or what the separation measures, and vertical. */

@@ -343,6 +343,7 @@ const map = {
   settings,
   alarm,
   get coastSize(): number { return chart.coast.size; },
+  get labels() { return chart.labels; },
   /** Shows another state than the watch's. */
   show,
   redraw,

@@ -23,6 +23,11 @@ export interface Approach {
   places: readonly [Spot, Spot];
   /** Distance in the plane, then. */
   distance: number;
+  /**
+   * How far off that is for the bounds of the two places now: the sum of both. Courses and speeds may be off, too. Null
+   * without a bound.
+   */
+  error: number | null;
   /** How much higher the other one is then; null if that is not known. */
   above: number | null;
 }
@@ -88,8 +93,10 @@ function approachOf({ closest_time }: Pair, [one, other]: readonly [Place, Place
   const seconds = secondsOf(closest_time) - secondsOf(time);
   if (!(seconds > 0.05)) return null;
   const places = [spotAfter(one, seconds), spotAfter(other, seconds)] as const;
+  const [bound, otherBound] = [one.radius[0], other.radius[0]];
   return {
     seconds, places, distance: Math.hypot(places[1].x - places[0].x, places[1].y - places[0].y),
+    error: bound === null || otherBound === null ? null : bound + otherBound,
     above: hasHeights ? heightAbove(...places, [one, other]) : null,
   };
 }

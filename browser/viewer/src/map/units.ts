@@ -48,6 +48,14 @@ export class Units {
     }
   }
 
+  /** Returns the text of a horizontal distance and how far it may be off, in one unit if that is readable: 129 m ± 40. */
+  lengthWithin(length: number, error: number | null): string {
+    if (error === null) return this.length(length);
+    const [text, off] = [this.length(length), this.length(Number(error.toPrecision(2)))];
+    const [number, unit] = off.split(" ");
+    return `${text} ± ${unit === undefined || text.endsWith(` ${unit}`) ? number : off}`;
+  }
+
   /** Returns the text of a vertical distance; null has no limit. */
   height(height: number | null): string {
     if (height === null || this.kind !== "air") return this.kind === "plain" ? this.length(height) : height === null ? "any" : metresText(height);

@@ -96,4 +96,25 @@ std::string TimeScale::text(double seconds, int most_decimals) const {
   return is_number() ? number_text(time) : date_text(time, kind_ == TimeKind::utc);
 }
 
+std::optional<double> TimeScale::since_1970(double seconds) const {
+  const double own = static_cast<double>(origin_) + seconds / unit_;
+  if (!is_number()) return own;
+  constexpr double earliest = 1e8;  // in 1973
+  if (kind_ != TimeKind::number || unit_ != 1.0 || rate_ != 1.0 || own < earliest) return std::nullopt;
+  return own;
+}
+
+Moment moment_of(const TimeScale& times, double seconds) {
+  const auto since_1970 = times.since_1970(seconds);
+  if (!since_1970) return {{}, times.text(seconds, 1)};
+  if (!times.is_number()) {
+    const std::string text = times.text(seconds, 0);
+    const std::size_t day = text.find('T');
+    return {text.substr(0, day), text.substr(day + 1)};
+  }
+  const std::string text = date_text({static_cast<std::int64_t>(std::floor(*since_1970)), {}}, true);
+  const std::size_t day = text.find('T');
+  return {text.substr(0, day), text.substr(day + 1)};
+}
+
 }  // namespace kinesphere::program

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -30,6 +31,9 @@ class TimeScale {
   /// a zone if the file has none, or seconds since frame 0 for frames. It has all exact digits, but at most
   /// `most_decimals` decimals.
   std::string text(double seconds, int most_decimals = 17) const;
+  /// Returns seconds since 1970 (of local time where dates have no zone) for dates, and for numbers that can
+  /// only be such; nothing for other numbers.
+  std::optional<double> since_1970(double seconds) const;
 
  private:
   /// Returns the shortest number of the file's unit that is this time. Precondition: the origin is 0.
@@ -40,5 +44,14 @@ class TimeScale {
   double rate_;
   std::int64_t origin_ = 0;
 };
+
+/// A time as people read it: a date and a time of day. The date is empty for a stream without dates.
+struct Moment {
+  std::string date, time;
+};
+
+/// Returns the time of day in UTC, or without a zone as the dates of the file, for a date or seconds since
+/// 1970; otherwise the number of the file, with at most one decimal.
+Moment moment_of(const TimeScale& times, double seconds);
 
 }  // namespace kinesphere::program

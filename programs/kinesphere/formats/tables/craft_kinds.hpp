@@ -7,7 +7,7 @@
 
 namespace kinesphere::program {
 
-/// Kinds of craft with limits of their own; docs/watch.md has the source of each figure.
+/// Kinds of craft with limits of their own; docs/watch-streams.md has the source of each figure.
 enum class MotionPreset {
   vessel_at_rest,
   vessel,

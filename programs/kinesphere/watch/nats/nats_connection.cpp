@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "base/json_text.hpp"
+#include "base/escaped_text.hpp"
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
 

@@ -41,6 +41,7 @@ class JsonAlerts final : public AlertDesk::Next {
     const auto& [time, track, key, encounter, left_for] = lost;
     JsonObject alert = begin("lost", time);
     alert.add("track", view_.json_id(track));
+    add_name(alert, "track_name", track);
     add_reason(alert, left_for);
     add_pair(alert, view_.in_text_order(key.first, key.second), key.level);
     alert.add("predicted", encounter.predicted ? "true" : "false")
@@ -53,6 +54,7 @@ class JsonAlerts final : public AlertDesk::Next {
     const auto [first, second] = view_.in_text_order(a, b);
     JsonObject alert = begin("one_body", time);
     alert.add("first", view_.json_id(first)).add("second", view_.json_id(second));
+    add_names(alert, {first, second});
     write_(share, alert.line());
   }
   void write_group(std::uint64_t share, double time, const std::string& name, std::size_t tracks) override {
@@ -69,11 +71,19 @@ class JsonAlerts final : public AlertDesk::Next {
     alert.add("event", fmt::format("\"{}\"", event)).add("time", view_.json_time(time));
     return alert;
   }
+  /// Adds the name of a track, if the stream has told one.
+  void add_name(JsonObject& alert, std::string_view field, TrackId id) const {
+    const NamedTrack* const track = view_.track(id);
+    if (track != nullptr && !track->name.empty()) alert.text(field, track->name);
+  }
+  void add_names(JsonObject& alert, const OrderedPair& pair) const {
+    add_name(alert, "first_name", pair.first);
+    add_name(alert, "second_name", pair.second);
+  }
   void add_pair(JsonObject& alert, const OrderedPair& pair, std::uint32_t level) const {
-    alert.add("first", view_.json_id(pair.first))
-        .add("second", view_.json_id(pair.second))
-        .text("separation", view_.separation(level).name)
-        .count("level", level);
+    alert.add("first", view_.json_id(pair.first)).add("second", view_.json_id(pair.second));
+    add_names(alert, pair);
+    alert.text("separation", view_.separation(level).name).count("level", level);
   }
   /// Adds why a track has left, and the one that goes on as it, if there is one.
   static void add_reason(JsonObject& alert, const LeftFor& left_for) {
@@ -104,6 +114,7 @@ class JsonAlerts final : public AlertDesk::Next {
 
   void add_track_event(JsonObject& alert, const MonitorEvent& event, const LeftFor& left_for) const {
     alert.add("track", view_.json_id(event.first));
+    add_name(alert, "track_name", event.first);
     if (event.kind == MonitorEventKind::dropped) add_reason(alert, left_for);
     const NamedTrack* const track = view_.track(event.first);
     const std::string promise =

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/json_text.hpp"
+#include "base/escaped_text.hpp"
 
 namespace kinesphere::program {
 

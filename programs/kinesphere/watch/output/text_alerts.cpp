@@ -2,10 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <utility>
 
 #include "base/ascii_text.hpp"
@@ -15,33 +13,6 @@
 
 namespace kinesphere::program {
 namespace {
-
-/// A time as a date and a time of day; the date is empty for a stream without dates.
-struct Moment {
-  std::string date, time;
-};
-
-/// Returns a date and the time of day in UTC for a date or seconds since 1970; otherwise the number of the
-/// stream.
-Moment moment_of(const TimeScale& times, double time) {
-  if (!times.is_number()) {
-    const std::string text = times.text(time, 0);
-    const std::size_t day = text.find('T');
-    return day == std::string::npos ? Moment{{}, text} : Moment{text.substr(0, day), text.substr(day + 1)};
-  }
-  const std::string number = times.text(time, 1);
-  constexpr double earliest_date = 1e8;  // in 1973
-  const double seconds = std::strtod(number.c_str(), nullptr);
-  if (seconds < earliest_date) return {{}, number};
-  using namespace std::chrono;
-  const sys_seconds second{std::chrono::seconds(static_cast<std::int64_t>(std::floor(seconds)))};
-  const year_month_day day{floor<days>(second)};
-  const hh_mm_ss clock{second - floor<days>(second)};
-  return {fmt::format("{:04}-{:02}-{:02}", static_cast<int>(day.year()), static_cast<unsigned>(day.month()),
-                      static_cast<unsigned>(day.day())),
-          fmt::format("{:02}:{:02}:{:02}Z", clock.hours().count(), clock.minutes().count(),
-                      clock.seconds().count())};
-}
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::llround(seconds));

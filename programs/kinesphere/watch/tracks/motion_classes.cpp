@@ -20,7 +20,7 @@ struct PresetRow {
   double speed, vertical_speed;
 };
 
-/// In the order of MotionPreset. docs/watch.md has the source of each figure.
+/// In the order of MotionPreset. docs/watch-streams.md has the source of each figure.
 constexpr PresetRow preset_rows[preset_count] = {
     {0.05, 0.05, 1.0, 1.0},            // vessel-at-rest
     {0.3, 0.3, 30.0, 30.0},            // vessel

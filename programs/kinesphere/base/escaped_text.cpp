@@ -1,11 +1,13 @@
-// Text as XML writes it.
-#include "tracks/xml_text.hpp"
+// Text as JSON and XML write it.
+#include "base/escaped_text.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "base/json_text.hpp"
-
 namespace kinesphere::program {
+
+std::string json_text(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
 
 std::string xml_text(std::string_view text) {
   // JSON's writer replaces invalid UTF-8.
