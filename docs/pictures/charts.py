@@ -59,7 +59,7 @@ def draw_costs():
     )
     x = logarithmic(picture, 0.1, 1000, left, right, 50.0, bottom, "")
     picture.text(left, 30, "world", "body")
-    picture.text(left + 80, 30, "slowest steps that miss nothing", "probe")
+    picture.text(left + 80, 30, "longest steps that miss nothing", "probe")
     picture.text(right + 30, bottom + 54, "microseconds for a sphere and a second", "quiet", "end")
     table = rows()
     for k, scene in enumerate(SCENES):
