@@ -42,7 +42,7 @@ void Part::install(const BodyRecord& record) {
   ghosts_.set_first_radius(number, record.first_radius);
   if (!bodies[number].dirty) return;
   bodies[number].dirty = false;
-  main_.dirty().add(bodies, number);
+  main_.dirty().add(bodies, number, bodies[number].turned);
 }
 
 /// Links a body with others, as far as these are in this part.

@@ -126,7 +126,7 @@ struct HitLists {
 /// Errors of all queries: probe_in_progress; not_finite or out_of_range for points and lengths beyond
 /// limits.hpp and for negative lengths; with a probe null_probe, and not_finite or out_of_range for an
 /// invalid state, which is discarded. Cost: a search, its results, and the bodies that were added or changed
-/// since the last advance.
+/// since the last advance, but for those that have only got another velocity.
 class [[nodiscard]] World::Queries {
  public:
   /// Returns the bodies that may overlap a sphere, by index. With a probe: one state for each undecided

@@ -17,13 +17,14 @@ std::vector<std::uint32_t> registered_in(const Box& box, const WorldState& state
 }
 
 /// A safe region contains its body until its own time, which is not in the past. Only a body that was changed
-/// or violated its bound can be outside, and such a body is dirty.
+/// or violated its bound can be outside, and such a body is dirty. One that has only another velocity from now
+/// on is still where it was.
 std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& state, const DirtyList& dirty) {
   std::vector<std::uint32_t> numbers;
-  for (const std::uint32_t number : dirty.numbers())
-    if (state.bodies[number].dirty) numbers.push_back(number);
+  for (const std::uint32_t number : dirty.moved())
+    if (DirtyList::may_have_moved(state.bodies[number])) numbers.push_back(number);
   for (const std::uint32_t number : registered_in(box, state))
-    if (!state.bodies[number].dirty) numbers.push_back(number);
+    if (!DirtyList::may_have_moved(state.bodies[number])) numbers.push_back(number);
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;

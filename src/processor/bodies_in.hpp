@@ -12,7 +12,7 @@ namespace kinesphere {
 std::vector<std::uint32_t> registered_in(const Box& box, const WorldState& state);
 
 /// Returns all bodies that may be in the box now, in ascending order. Cost: one search, plus one step for
-/// each body in the dirty list.
+/// each body in DirtyList::moved().
 std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& state, const DirtyList& dirty);
 
 }  // namespace kinesphere

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "bodies/bodies.hpp"
@@ -30,12 +31,19 @@ class DirtyList {
   bool lists(const Bodies& bodies, std::uint32_t number) const {
     return !numbers_.empty() && bodies[number].dirty;
   }
-  void add(Bodies& bodies, std::uint32_t number) {
-    if (bodies[number].dirty) return;
-    bodies[number].dirty = true;
-    numbers_.push_back(number);
+  /// `turns`: its velocity changes from now on, and nothing else (Body::turned).
+  void add(Bodies& bodies, std::uint32_t number, bool turns = false) {
+    Body& body = bodies[number];
+    const bool turns_alone = turns && (body.turned || !body.dirty);
+    if (!turns_alone && (!body.dirty || body.turned)) moved_.push_back(number);
+    if (!body.dirty) numbers_.push_back(number);
+    body.dirty = true;
+    body.turned = turns_alone;
   }
-  void assign(std::span<const std::uint32_t> numbers) { numbers_.assign(numbers.begin(), numbers.end()); }
+  /// Returns all bodies that may be elsewhere than the core knows, and possibly some that are not.
+  std::span<const std::uint32_t> moved() const { return moved_; }
+  /// Returns true if the body is in `moved()`, or should be.
+  static bool may_have_moved(const Body& body) { return body.dirty && !body.turned; }
   /// Sorts the list in ascending order and removes duplicates and bodies that are not dirty. Returns the
   /// list. Cost: O(n log n).
   const std::vector<std::uint32_t>& sort(const Bodies& bodies) {
@@ -43,12 +51,20 @@ class DirtyList {
     std::erase_if(numbers_, [&](std::uint32_t number) { return !bodies[number].dirty; });
     return numbers_;
   }
-  void clear() { numbers_.clear(); }
+  void clear() {
+    numbers_.clear();
+    moved_.clear();
+  }
 
-  static void serialize(auto& self, auto& archive) { archive(self.numbers_); }
+  template <class Self>
+  static void serialize(Self& self, auto& archive) {
+    archive(self.numbers_);
+    if constexpr (!std::is_const_v<Self>) self.moved_ = self.numbers_;
+  }
 
  private:
   std::vector<std::uint32_t> numbers_;
+  std::vector<std::uint32_t> moved_;
 };
 
 }  // namespace kinesphere

@@ -141,11 +141,10 @@ Result<SpotChecks::Census> EventProcessor::spot_check_due(std::span<const std::u
   return census;
 }
 
-void EventProcessor::invalidate(std::uint32_t number) {
+void EventProcessor::invalidate(std::uint32_t number, bool turns) {
   events_.outdate();
   ++bodies()[number].revision;
-  bodies()[number].turned = false;
-  dirty_.add(bodies(), number);
+  dirty_.add(bodies(), number, turns);
 }
 
 void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
@@ -154,9 +153,8 @@ void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
   if (!body.fresh(time_)) bodies().change_of(number).velocity = velocity;
   // A body with a report of now moves on with it at once, also if it awaits another report, having slept.
   if (body.bound.time == time_) body.bound.velocity = velocity;
-  const bool turns_alone = body.turned || !body.dirty;
-  turn_reported(number);
-  body.turned = turns_alone;
+  contacts().turn_reported(number);
+  invalidate(number, true);
 }
 
 void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity) {
@@ -165,11 +163,6 @@ void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angu
   record.change({record.at(time_).orientation, angular_velocity}, time_, body.fresh(time_));
   if (!body.fresh(time_)) bodies().change_of(number);
   contacts().set_largest_acceleration(number, bodies().largest_acceleration(number));
-  turn_reported(number);
-}
-
-/// Makes everything stale that depends on how the body has moved until now.
-void EventProcessor::turn_reported(std::uint32_t number) {
   contacts().turn_reported(number);
   invalidate(number);
 }

@@ -91,8 +91,8 @@ class alignas(128) EventProcessor final : public core::Host {
   void note_response();
 
   // Discontinuities.
-  /// Nothing is known of the pairs of the body any longer. Marks it dirty.
-  void invalidate(std::uint32_t number);
+  /// Nothing is known of the pairs of the body any longer. Marks it dirty. `turns`: its velocity alone changes.
+  void invalidate(std::uint32_t number, bool turns = false);
   /// Sets the velocity of the body from the current time on.
   void set_velocity(BodyId body, const Vec3& velocity) {
     set_velocity(bodies().table().number_of(body), velocity);
@@ -180,7 +180,6 @@ class alignas(128) EventProcessor final : public core::Host {
   const ContactGraph& contacts() const { return state_->contacts; }
 
   void note_probes(std::span<const std::uint32_t> numbers, ProbeCause cause);
-  void turn_reported(std::uint32_t number);
   Result<void> recertify_dirty();
 
   // rechecks.cpp

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace kinesphere::dirty_list_test {
@@ -40,6 +41,19 @@ TEST_F(DirtyListTest, ABodyThatBecameCleanAndDirtyAgainIsSortedOnce) {
   list_.add(bodies_, 4);
   EXPECT_EQ(list_.numbers(), (Numbers{4, 1, 5, 2, 4}));
   EXPECT_EQ(list_.sort(bodies_), (Numbers{1, 2, 4, 5}));
+}
+
+TEST_F(DirtyListTest, BodiesThatTurnAloneHaveNotMoved) {
+  list_.add(bodies_, 3, true);
+  list_.add(bodies_, 1, true);  // it has moved before
+  EXPECT_TRUE(bodies_[3].turned && !bodies_[1].turned);
+  EXPECT_TRUE(std::ranges::equal(list_.moved(), Numbers{4, 1, 5, 2}));
+  list_.add(bodies_, 3, true);
+  EXPECT_TRUE(bodies_[3].turned);
+  list_.add(bodies_, 3);
+  list_.add(bodies_, 3, true);
+  EXPECT_FALSE(bodies_[3].turned);
+  EXPECT_TRUE(std::ranges::equal(list_.moved(), Numbers{4, 1, 5, 2, 3}));
 }
 
 }  // namespace
