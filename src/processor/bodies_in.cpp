@@ -17,8 +17,8 @@ std::vector<std::uint32_t> registered_in(const Box& box, const WorldState& state
 }
 
 /// A safe region contains its body until its own time, which is not in the past. Only a body that was changed
-/// or violated its bound can be outside, and such a body is dirty. One that has only another velocity from now
-/// on is still where it was.
+/// or violated its bound can be outside, and such a body is dirty. One that has only another velocity from
+/// now on is still where it was.
 std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& state, const DirtyList& dirty) {
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t number : dirty.moved())

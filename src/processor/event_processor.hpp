@@ -91,7 +91,8 @@ class alignas(128) EventProcessor final : public core::Host {
   void note_response();
 
   // Discontinuities.
-  /// Nothing is known of the pairs of the body any longer. Marks it dirty. `turns`: its velocity alone changes.
+  /// Nothing is known of the pairs of the body any longer. Marks it dirty. `turns`: its velocity alone
+  /// changes.
   void invalidate(std::uint32_t number, bool turns = false);
   /// Sets the velocity of the body from the current time on.
   void set_velocity(BodyId body, const Vec3& velocity) {
