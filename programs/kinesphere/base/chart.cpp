@@ -66,6 +66,7 @@ std::vector<Tick> number_ticks(double low, double high, int wanted) {
   const auto places = ticks(low, high, wanted);
   const double step = places.size() > 1 ? places[1] - places[0] : 1.0;
   std::vector<Tick> result;
+  result.reserve(places.size());
   for (const double place : places) result.push_back({place, tick_text(place, step)});
   return result;
 }
@@ -125,6 +126,7 @@ std::string dots(const std::vector<ChartPoint>& points, double radius, std::stri
                  double opacity) {
   constexpr double far = 1e5;
   std::vector<std::pair<int, int>> drawn;
+  drawn.reserve(points.size());
   for (const ChartPoint& point : points)
     drawn.emplace_back(static_cast<int>(std::clamp(point.x, -far, far)),
                        static_cast<int>(std::clamp(point.y, -far, far)));

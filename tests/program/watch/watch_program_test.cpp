@@ -389,7 +389,7 @@ TEST_F(WatchProgram, DrawsAMapAndWhenPairsHadAlerts) {
 
   // The two are within from 8.5 to 11.5 s, about: that is drawn although its end is not told.
   ASSERT_EQ(run("watch " + write("s.jsonl", head_on()) + " --separation sphere:30 --plot " + path("h.svg") +
-                promises)
+                " --acceleration 1 --position-error 0.5 --velocity-error 0.1")
                 .exit_code,
             0);
   const std::string of_pair = read_text(path("h.svg"));
