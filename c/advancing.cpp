@@ -76,11 +76,11 @@ BodyAction action_of(const Event& event, BodyId body, ks_body_action action, con
                           " must be one of KS_ACTION_..., but is " + std::to_string(action)});
 }
 
-Response response_of_caller(const ks_run_definition& definition, const Event& event) {
+Response response_of_caller(std::string_view call, ks_respond respond, void* user, const Event& event) {
   const ks_event told = c_event(event);
   ks_response chosen = c_response({});
-  require_success("respond", definition.respond(&told, &chosen, definition.respond_user));
-  require_record("ks_world_run", &chosen, "response");
+  require_success("respond", respond(&told, &chosen, user));
+  require_record(call, &chosen, "response");
   Response response{.stop = chosen.stop != 0};
   response.first_action = action_of(event, event.first, chosen.first_action, "first_action");
   response.second_action = action_of(event, event.second, chosen.second_action, "second_action");
@@ -101,6 +101,21 @@ void require_bounce(std::string_view call, double restitution, double resting_sp
       .value();
 }
 
+}  // namespace
+
+GameResponse response_by(std::string_view call, ks_respond respond, void* user, double restitution,
+                         double resting_speed) {
+  if (respond != nullptr)
+    return [=, name = std::string(call)](const Event& event) {
+      return response_of_caller(name, respond, user, event);
+    };
+  if (std::isnan(restitution)) return {};
+  require_bounce(call, restitution, resting_speed);
+  return [=](const Event& event) { return bounced(event, restitution, resting_speed); };
+}
+
+namespace {
+
 /// Returns workers with this number of threads, those of the last run if possible; null for one thread.
 Workers* workers_for(WorldObject& object, int threads) {
   if (threads == 1) return nullptr;
@@ -112,12 +127,9 @@ Workers* workers_for(WorldObject& object, int threads) {
 }
 
 void run(std::string_view call, WorldObject& object, double until, const ks_run_definition& definition) {
-  const bool bounces = !definition.respond && !std::isnan(definition.restitution);
-  if (bounces) require_bounce(call, definition.restitution, definition.resting_speed);
-  const auto respond = [&](const Event& event) -> Response {
-    if (definition.respond) return response_of_caller(definition, event);
-    return bounces ? bounced(event, definition.restitution, definition.resting_speed) : Response{};
-  };
+  const GameResponse chosen = response_by(call, definition.respond, definition.respond_user,
+                                          definition.restitution, definition.resting_speed);
+  const auto respond = [&](const Event& event) { return chosen ? chosen(event) : Response{}; };
   const auto sink = [&](const Event& event) {
     if (!definition.sink) return;
     const ks_event told = c_event(event);
@@ -126,11 +138,11 @@ void run(std::string_view call, WorldObject& object, double until, const ks_run_
   // Inside a callback the workers of the outer run must stay.
   require_idle(object.world());
   try {
-    object.simulation.run(until, respond, sink, workers_for(object, definition.threads)).value();
+    object.simulation().run(until, respond, sink, workers_for(object, definition.threads)).value();
   } catch (const BadResult& bad) {
     const Error& error = bad.error();
     if (error.code != ErrorCode::unknown_body || !object.world().contains(error.body) ||
-        object.simulation.find(error.body))
+        object.simulation().find(error.body))
       throw;
     detail::bad_result({ErrorCode::unknown_body, "body", error.body,
                         std::string(call) + ": no motion of the world moves " + text_of(error.body) +
@@ -150,9 +162,11 @@ int32_t ks_probe_motions(const ks_body_id*, size_t, double, ks_state*, void*) { 
 ks_status ks_world_advance(ks_world world, double until, ks_probe probe, void* user, ks_event* event) {
   return changing(__func__, world, [&, call = __func__](WorldObject& object) {
     require_record(call, event, "event");
-    const auto next = with_probe(call, object.simulation, probe, user, [&](const Probe& combined) {
-      return object.world().advance(until, combined).value();
-    });
+    const auto next = object.is_game() && probe == ks_probe_motions
+                          ? object.game().advance(until).value()
+                          : with_probe(call, object.simulation(), probe, user, [&](const Probe& combined) {
+                              return object.world().advance(until, combined).value();
+                            });
     write_next(next, object.world().time(), event);
   });
 }

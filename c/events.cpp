@@ -9,7 +9,7 @@ using namespace kinesphere::c;
 
 const char* ks_event_kind_name(ks_event_kind kind) {
   if (kind == KS_EVENT_NONE) return "none";
-  if (kind < KS_EVENT_BOUND_VIOLATION || kind > KS_EVENT_WOKE) return "";
+  if (kind < KS_EVENT_BOUND_VIOLATION || kind > KS_EVENT_TIMER) return "";
   return name_of(static_cast<EventKind>(kind - KS_EVENT_BOUND_VIOLATION)).data();
 }
 

@@ -842,6 +842,72 @@ static inline ks_run_definition ks_default_run_definition(void) {
 KS_API KS_MUST_CHECK ks_status ks_world_run(ks_world world, double until,
                                             const ks_run_definition* definition);
 
+// Games: worlds that move their own bodies (kinesphere/game_world.hpp). The calls of worlds do with a game
+// what they do with others: a game is asked for no states, and takes no motions, runs and motion limits
+// (KS_ERROR_UNSUPPORTED).
+
+/// What a game has beside its world.
+typedef struct ks_game_definition {
+  uint32_t struct_size;
+  int32_t reserved;    ///< 0
+  ks_vec3 gravity;     ///< Acceleration of all bodies, beside planned_acceleration of each.
+  double restitution;  ///< in [0, 1], default 1: bodies bounce as by ks_bounce(); NaN: they pass through each
+                       ///< other
+  double resting_speed;  ///< as for ks_bounce()
+  /// If not NULL, it answers events instead, for the game and its clones; `stop` has no effect.
+  ks_respond respond;
+  void* respond_user;
+} ks_game_definition;
+KS_API ks_status ks_game_definition_init(ks_game_definition* definition, uint32_t struct_size);
+static inline ks_game_definition ks_default_game_definition(void) {
+  ks_game_definition definition;
+  ks_game_definition_init(&definition, (uint32_t)sizeof definition);
+  return definition;
+}
+
+/// Events of a step, in order.
+typedef struct ks_event_list {
+  size_t count;
+  const ks_event* events;
+} ks_event_list;
+
+/// The bodies of a game that can move, disabled ones too, in dense arrays: the last body takes the place of a
+/// removed one.
+typedef struct ks_body_list {
+  size_t count;
+  const ks_body_id* ids;
+  const ks_vec3* positions;
+  const ks_vec3* velocities;
+} ks_body_list;
+
+/// Creates a game without bodies. Its handle is that of a world: ks_world_add(), ks_world_remove(),
+/// ks_world_set_velocity() and the like change its bodies, ks_world_advance() with ks_probe_motions goes to
+/// the next event, and ks_world_destroy() destroys it. Errors: as GameWorld::create().
+KS_API KS_MUST_CHECK ks_status ks_game_create(const ks_world_definition* world,
+                                              const ks_game_definition* definition, ks_world* game);
+/// Creates the game of a snapshot that ks_world_save() made of a game; it continues bit for bit. Of the
+/// definition the gravity does not count. `filter`: as for ks_world_restore(). Errors: KS_ERROR_BAD_SNAPSHOT.
+KS_API KS_MUST_CHECK ks_status ks_game_restore(const void* bytes, size_t count,
+                                               const ks_game_definition* definition, ks_pair_filter filter,
+                                               void* user, ks_world* game);
+/// Advances a game by dt > 0, answers all events by its response, and tells them. They are valid until the
+/// next step or ks_world_destroy(). Errors: as GameWorld::step(); KS_ERROR_CALLBACK_FAILED. After one the
+/// next step goes on from where the game stands, and tells the events of this step, too.
+KS_API KS_MUST_CHECK ks_status ks_game_step(ks_world game, double dt, ks_event_list* happened);
+/// Tells where the bodies of a game are now. On periodic axes positions lie in the box. The arrays are valid
+/// until the next call that advances or changes the game. Cost: O(1) after a step.
+KS_API ks_status ks_game_bodies(ks_world game, ks_body_list* found);
+/// The place of a body in these arrays. Errors: as ks_world_body(); KS_ERROR_STATIC_BODY.
+KS_API ks_status ks_game_index_of(ks_world game, ks_body_id body, size_t* index);
+/// Sets the velocities of all bodies of a game, in the order of its arrays, or, on an error, of none. A body
+/// that has its velocity already goes on undisturbed. Errors: as GameWorld::set_velocities().
+KS_API ks_status ks_game_set_velocities(ks_world game, const ks_vec3* velocities, size_t count);
+/// Sets the acceleration of a body of a game beside the gravity (length / time^2).
+KS_API ks_status ks_game_set_acceleration(ks_world game, ks_body_id body, ks_vec3 acceleration);
+/// Sets the gravity of a game; wakes all that sleep.
+KS_API ks_status ks_game_set_gravity(ks_world game, ks_vec3 gravity);
+KS_API ks_status ks_game_gravity(ks_world game, ks_vec3* gravity);
+
 // Ready-made motions, owned by the world (kinesphere/motion/).
 
 /// One of KS_MOTION_...

@@ -91,6 +91,18 @@ static void run_definition(void) {
   CHECK(made.sink_user == NULL);
 }
 
+static void game_definition(void) {
+  const ks_game_definition made = ks_default_game_definition();
+  CHECK(made.reserved == 0);
+  CHECK(made.gravity.x == 0);
+  CHECK(made.gravity.y == 0);
+  CHECK(made.gravity.z == 0);
+  CHECK(made.restitution == 1);
+  CHECK(made.resting_speed == 0);
+  CHECK(made.respond == 0);
+  CHECK(made.respond_user == NULL);
+}
+
 static void motion_definition(void) {
   const ks_motion_definition made = ks_default_motion_definition();
   CHECK(made.kind == 0);
@@ -164,6 +176,7 @@ int main(void) {
   static_definition();
   rigid_definition();
   run_definition();
+  game_definition();
   motion_definition();
   monitor_definition();
   track_report();
