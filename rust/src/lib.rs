@@ -34,6 +34,7 @@ mod answers;
 mod bodies;
 mod error;
 mod events;
+mod game;
 mod geometry;
 mod monitor;
 mod profiling;
@@ -46,6 +47,7 @@ pub use answers::{Answers, Choice};
 pub use bodies::{RigidDefinition, StaticDefinition};
 pub use error::{Error, Result};
 pub use events::{EventHash, Response};
+pub use game::{GameResponse, GameWorld};
 pub use geometry::{
     BodyId, Box3, Mesh, Quaternion, Ray, RigidHull, RigidPart, Rotation, Shape, Sphere, State, Vec3,
 };
