@@ -3,7 +3,7 @@ using System;
 
 namespace Kinesphere
 {
-    public sealed unsafe partial class World
+    public unsafe partial class World
     {
         /// <summary>Informs the world that a rigid body turns with this angular velocity from now on.</summary>
         public void SetAngularVelocity(BodyId body, Vector angularVelocity)
@@ -159,7 +159,7 @@ namespace Kinesphere
             });
         }
 
-        static Native.PairFilter PairCallback(PairFilter filter, Caught caught)
+        internal static Native.PairFilter PairCallback(PairFilter filter, Caught caught)
         {
             if (filter == null) return null;
             return (first, second, user) =>

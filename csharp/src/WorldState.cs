@@ -3,7 +3,7 @@ using System;
 
 namespace Kinesphere
 {
-    public sealed unsafe partial class World
+    public unsafe partial class World
     {
         /// <summary>The rotation of a rigid body at its last report.</summary>
         public Rotation RotationOf(BodyId body)
