@@ -87,6 +87,7 @@ std::optional<Event> advanced(WorldHandle& handle, double until, Asked& asked) {
 }
 
 py::object advance(WorldHandle& handle, double until, const py::object& probe) {
+  handle.require_moved_by_others("advance");
   require_added(handle, probe, "advance");
   Asked asked(probe, "advance", handle.is_plane());
   const std::optional<Event> event = advanced(handle, until, asked);
@@ -102,6 +103,7 @@ class EventIterator {
   double until() const { return until_; }
 
   Event next() {
+    handle_->require_moved_by_others("events");
     require_added(*handle_, probe_, "events");
     // Between two events the caller may change the motion.
     Asked asked(probe_, "events", handle_->is_plane());
@@ -239,6 +241,7 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
                const py::object& sink, const py::object& at_stop, const py::object& threads,
                const py::object& progress) {
   const auto turn = handle.take("run");
+  handle.require_moved_by_others("run");
   require_added(handle, motion, "run");
   Asked asked(motion, "run", handle.is_plane());
   if (!at_stop.is_none() && PyCallable_Check(at_stop.ptr()) == 0)

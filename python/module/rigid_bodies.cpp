@@ -57,7 +57,7 @@ py::object add_rigid_body(WorldHandle& handle, const py::object& parts, const py
                   .sensor_class = sensor_class_of(sensor_class, {call, "sensor_class"}),
                   .user_data = user_data,
                   .mass = mass});
-  const BodyId id = handle.world.add_rigid_body(body).value();
+  const BodyId id = handle.change([&](auto& to) { return to.add_rigid_body(body); }).value();
   end_call(handle);
   return object_of(id);
 }

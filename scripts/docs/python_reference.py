@@ -19,7 +19,7 @@ import kinesphere
 
 page = Path(sys.argv[1])
 GROUPS = {
-    "Worlds": "World Event Events EventKind EventIterator EventHash BodyId Wall Senses Workers Counters BodyView BusyBody",
+    "Worlds": "World GameWorld Event Events EventKind EventIterator EventHash BodyId Wall Senses Workers Counters BodyView BusyBody",
     "Certified answers": "SafeTime SafeSeparation EarliestContact EarliestApproach DistanceLimits",
     "Shapes and starts": "Ball Box Capsule HalfSpace Hull Mesh Triangle place_spheres",
     "Motions": "Motion Ballistic RandomForces VelocityField Circulation RecordedTracks SteeredMotion FrameMotion"
