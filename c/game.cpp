@@ -75,6 +75,13 @@ ks_status ks_game_index_of(ks_world game, ks_body_id body, size_t* index) {
   });
 }
 
+ks_status ks_game_set_response(ks_world game, const ks_game_definition* definition) {
+  return changing(__func__, game, [&, call = __func__](WorldObject& object) {
+    require_record(call, definition, "definition");
+    object.game().set_response(response_of_game(call, *definition)).value();
+  });
+}
+
 ks_status ks_game_set_velocities(ks_world game, const ks_vec3* velocities, size_t count) {
   return changing(__func__, game, [&, call = __func__](WorldObject& object) {
     require_array(call, velocities, count, "velocities");

@@ -899,6 +899,8 @@ KS_API KS_MUST_CHECK ks_status ks_game_step(ks_world game, double dt, ks_event_l
 KS_API ks_status ks_game_bodies(ks_world game, ks_body_list* found);
 /// The place of a body in these arrays. Errors: as ks_world_body(); KS_ERROR_STATIC_BODY.
 KS_API ks_status ks_game_index_of(ks_world game, ks_body_id body, size_t* index);
+/// Replaces the response of a game by that of the definition, whose gravity does not count.
+KS_API ks_status ks_game_set_response(ks_world game, const ks_game_definition* definition);
 /// Sets the velocities of all bodies of a game, in the order of its arrays, or, on an error, of none. A body
 /// that has its velocity already goes on undisturbed. Errors: as GameWorld::set_velocities().
 KS_API ks_status ks_game_set_velocities(ks_world game, const ks_vec3* velocities, size_t count);

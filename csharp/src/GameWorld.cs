@@ -99,6 +99,14 @@ namespace Kinesphere
             return (int)index;
         }
 
+        /// <summary>Replaces what answers the events of the game; its clones keep theirs.</summary>
+        public void SetResponse(double restitution = 1, double restingSpeed = 0, Respond respond = null)
+        {
+            var answering = new Answering(new Vector(), restitution, restingSpeed, respond) { Caught = kept };
+            Check(Native.ks_game_set_response(handle, ref answering.Definition));
+            answer = answering.Callback;
+        }
+
         /// <summary>Sets the velocities of all bodies, in the order of Ids, or, on an error, of none.</summary>
         public void SetVelocities(Vector[] velocities)
         {
@@ -133,13 +141,12 @@ namespace Kinesphere
             public Answering() { }
             public Answering(Vector gravity, double restitution, double restingSpeed, Respond respond)
             {
-                var caught = Caught;
                 Definition = Native.GameDefinition.Default;
                 Definition.Gravity = gravity;
                 Definition.Restitution = restitution;
                 Definition.RestingSpeed = restingSpeed;
                 if (respond == null) return;
-                Callback = (happened, response, user) => caught.Call(() => *response = respond(*happened).Sized());
+                Callback = (happened, response, user) => Caught.Call(() => *response = respond(*happened).Sized());
                 Definition.Respond = Marshal.GetFunctionPointerForDelegate(Callback);
             }
         }

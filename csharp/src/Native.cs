@@ -356,6 +356,8 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_game_index_of(ulong game, BodyId body, out UIntPtr index);
         [DllImport(library)]
+        public static extern int ks_game_set_response(ulong game, ref GameDefinition definition);
+        [DllImport(library)]
         public static extern int ks_game_set_velocities(ulong game, Vector[] velocities, UIntPtr count);
         [DllImport(library)]
         public static extern int ks_game_set_acceleration(ulong game, BodyId body, Vector acceleration);

@@ -632,6 +632,10 @@ static class SharedScene
             }
             Require(said == "game over", "the exception of a response");
             Require(game.Step(2).Length == 1 && game.Ids.Length == 0, "what a response removes");
+            game.SetResponse(0.5);
+            game.Add(BodyDefinition.Default);
+            game.Step(1);
+            Require(calls == 3, "another response");
         }
         using (var game = NewGame(out ball))
         {

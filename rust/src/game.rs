@@ -186,6 +186,13 @@ impl GameWorld {
         Ok(index)
     }
 
+    /// Replaces the response of the game; its clones keep theirs.
+    pub fn set_response(&mut self, response: GameResponse) -> Result<()> {
+        let (kept, raw) = response.raw(Vec3::default());
+        self.check(unsafe { sys::ks_game_set_response(self.handle, &raw) })?;
+        self.respond = kept;
+        Ok(())
+    }
     /// Sets the velocities of all bodies, in the order of `ids`, or, on an error, of none.
     pub fn set_all_velocities(&mut self, velocities: &[Vec3]) -> Result<()> {
         self.check(unsafe { sys::ks_game_set_velocities(self.handle, velocities.as_ptr(), velocities.len()) })

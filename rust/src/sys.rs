@@ -861,6 +861,7 @@ extern "C" {
     pub fn ks_game_step(game: ks_world, dt: f64, happened: *mut ks_event_list) -> ks_status;
     pub fn ks_game_bodies(game: ks_world, found: *mut ks_body_list) -> ks_status;
     pub fn ks_game_index_of(game: ks_world, body: BodyId, index: *mut usize) -> ks_status;
+    pub fn ks_game_set_response(game: ks_world, definition: *const ks_game_definition) -> ks_status;
     pub fn ks_game_set_velocities(game: ks_world, velocities: *const Vec3, count: usize) -> ks_status;
     pub fn ks_game_set_acceleration(game: ks_world, body: BodyId, acceleration: Vec3) -> ks_status;
     pub fn ks_game_set_gravity(game: ks_world, gravity: Vec3) -> ks_status;

@@ -582,6 +582,7 @@ fn a_game_moves_its_bodies() {
     game.set_all_velocities(&[Vec3::new(0.0, 1.0, 0.0)]).unwrap();
     game.set_acceleration(other, Vec3::new(0.0, 0.0, 4.0)).unwrap();
     let mut copy = game.try_clone().unwrap();
+    copy.set_response(GameResponse::Respond(Box::new(|event| event.bounce(1.0).unwrap()))).unwrap();
     let mut saved = GameWorld::restore(&game.save().unwrap(), GameResponse::PassThrough, None).unwrap();
     for one in [&mut game, &mut copy, &mut saved] {
         one.step(0.5).unwrap();

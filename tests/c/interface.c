@@ -1165,6 +1165,9 @@ static void games_of_events(void) {
   CHECK_OK(ks_game_step(copy, 2, &happened));
   CHECK(happened.count == 1 && happened.events[0].kind == KS_EVENT_WALL_BEGIN);
   CHECK(bodies_of(copy).positions[0].z == bodies_of(game).positions[0].z);
+  CHECK_OK(ks_game_set_response(copy, &falling));
+  CHECK_OK(ks_game_step(copy, 2, &happened));
+  CHECK(calls > 0 && bodies_of(copy).count == 0);
   CHECK_OK(ks_game_step(saved, 2, &happened));
   CHECK(happened.count == 1 && calls > 0 && bodies_of(saved).count == 0);
   CHECK_OK(ks_world_destroy(copy));
