@@ -27,36 +27,6 @@ std::optional<Vec3> velocity_at(const double* numbers) {
   return vector_at(numbers);
 }
 
-Response ask_javascript(const Event& event) {
-  double numbers[event_numbers];
-  put(event, numbers);
-  // For each of the two bodies a velocity, then an angular velocity, then an action; and whether to stop.
-  double response[19] = {};
-  // A function that throws leaves NaN, too.
-  if (!javascript_respond(numbers, response)) return {Vec3{nan, nan, nan}, std::nullopt};
-  return {velocity_at(response),
-          velocity_at(response + 4),
-          velocity_at(response + 8),
-          velocity_at(response + 12),
-          static_cast<BodyAction>(response[16]),
-          static_cast<BodyAction>(response[17]),
-          response[18] != 0.0};
-}
-
-/// Given masses are by index; bodies beyond them, or all if there are none, have their own.
-Response bounce_off(const Event& event, std::span<const double> masses, double restitution,
-                    double resting_speed) {
-  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
-  if (!begins || event.approach_speed <= 0.0) return {};
-  const auto mass = [&](BodyId body, double own) {
-    return body.index < masses.size() ? masses[body.index] : own;
-  };
-  const double first = mass(event.first, event.first_mass);
-  const double second = mass(event.second, event.second_mass);
-  return response_of(event, resting_speed > 0.0 ? settle(event, first, second, restitution, resting_speed)
-                                                : bounce(event, first, second, restitution));
-}
-
 /// Returns false, and stores an error, for a motion with bodies in a world that never moved any and has none
 /// but static ones: the caller forgot to add them.
 bool were_added(const World& world, const MotionHandle* handle) {
@@ -73,6 +43,35 @@ bool were_added(const World& world, const MotionHandle* handle) {
 }
 
 }  // namespace
+
+Response ask_javascript(const Event& event) {
+  double numbers[event_numbers];
+  put(event, numbers);
+  // For each of the two bodies a velocity, then an angular velocity, then an action; and whether to stop.
+  double response[19] = {};
+  // A function that throws leaves NaN, too.
+  if (!javascript_respond(numbers, response)) return {Vec3{nan, nan, nan}, std::nullopt};
+  return {velocity_at(response),
+          velocity_at(response + 4),
+          velocity_at(response + 8),
+          velocity_at(response + 12),
+          static_cast<BodyAction>(response[16]),
+          static_cast<BodyAction>(response[17]),
+          response[18] != 0.0};
+}
+
+Response bounce_off(const Event& event, std::span<const double> masses, double restitution,
+                    double resting_speed) {
+  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+  if (!begins || event.approach_speed <= 0.0) return {};
+  const auto mass = [&](BodyId body, double own) {
+    return body.index < masses.size() ? masses[body.index] : own;
+  };
+  const double first = mass(event.first, event.first_mass);
+  const double second = mass(event.second, event.second_mass);
+  return response_of(event, resting_speed > 0.0 ? settle(event, first, second, restitution, resting_speed)
+                                                : bounce(event, first, second, restitution));
+}
 
 void ask_javascript(std::span<const BodyId> ids, double time, std::span<State> states) {
   std::vector<double> numbers;
@@ -96,9 +95,6 @@ int world_advance(World* world, double until, const MotionHandle* motion, BodyMa
   fail(*mover.refused());
   return -1;
 }
-
-/// Responses to events in world_run().
-enum class Responding : int { nothing, bounces, asks_javascript, as_in_scene };
 
 /// One of motion and map is null. All events are in answer() afterwards, also after an error.
 KINESPHERE_EXPORT(world_run)

@@ -77,13 +77,13 @@ export function moving(probe: Probe): [motion: number, map: number] {
 const respondings = { nothing: 0, bounces: 1, asksJavaScript: 2, asInScene: 3 } as const;
 
 /** Returns how to respond, for the module: a number, masses and so on, and a scene; and the function to call. */
-export function responded(respond: RunOptions["respond"]): [number, Bounces, number, RespondFunction | null] {
+export function responded(respond: RunOptions["respond"], call = "run"): [number, Bounces, number, RespondFunction | null] {
   if (respond === undefined) return [respondings.nothing, {}, 0, null];
   if (respond instanceof Scene) return [respondings.asInScene, {}, respond.address, null];
   if (typeof respond === "function") return [respondings.asksJavaScript, {}, 0, respond];
-  checkKeys(respond, bounceKeys, "respond", "run");
-  checkBounce(respond, "run");
-  if (respond.masses !== undefined) requireNumbers(respond.masses, "masses", "run");
+  checkKeys(respond, bounceKeys, "respond", call);
+  checkBounce(respond, call);
+  if (respond.masses !== undefined) requireNumbers(respond.masses, "masses", call);
   return [respondings.bounces, respond, 0, null];
 }
 

@@ -20,6 +20,7 @@ export { BodyMap } from "./body_map.js";
 export {
   type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, World, WorldView,
 } from "./world.js";
+export { type GameOptions, GameWorld } from "./game_world.js";
 export type { Box, Definition, WorldDefinition } from "./definition.js";
 export type { Filter, PairFilter } from "./filter.js";
 export { Scene, sceneNames, type SceneSettings } from "./scene.js";
