@@ -51,13 +51,13 @@ Response ask_javascript(const Event& event) {
   double response[19] = {};
   // A function that throws leaves NaN, too.
   if (!javascript_respond(numbers, response)) return {Vec3{nan, nan, nan}, std::nullopt};
-  return {velocity_at(response),
-          velocity_at(response + 4),
-          velocity_at(response + 8),
-          velocity_at(response + 12),
-          static_cast<BodyAction>(response[16]),
-          static_cast<BodyAction>(response[17]),
-          response[18] != 0.0};
+  return {.first_velocity = velocity_at(response),
+          .second_velocity = velocity_at(response + 4),
+          .first_angular_velocity = velocity_at(response + 8),
+          .second_angular_velocity = velocity_at(response + 12),
+          .first_action = static_cast<BodyAction>(response[16]),
+          .second_action = static_cast<BodyAction>(response[17]),
+          .stop = response[18] != 0.0};
 }
 
 Response bounce_off(const Event& event, std::span<const double> masses, double restitution,

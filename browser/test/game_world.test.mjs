@@ -70,7 +70,7 @@ test("a response answers events", () => {
   assert.throws(() => game.step(2), /a slip of the pen/);
   assert.deepEqual([game.step(2).length, game.ids.length], [1, 0]);
   game.setRespond({ restitution: 1 });
-  game.add({ radius: 1 });
+  game.add({ radius: 1, position: [5, 5, 5] });
   game.step(1);
   assert.equal(calls, 3);
 });
