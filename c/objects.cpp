@@ -74,6 +74,11 @@ HandleTable<MeshObject>& table_of(ks_mesh) {
   return *table;
 }
 
+HandleTable<StepPotentialObject>& table_of(ks_step_potential) {
+  static auto* const table = new HandleTable<StepPotentialObject>(5);
+  return *table;
+}
+
 void refuse_handle(std::string_view call, HandleState state) {
   const bool stale = state == HandleState::stale;
   throw Failure{stale ? KS_ERROR_STALE_HANDLE : KS_ERROR_INVALID_HANDLE, "handle",

@@ -16,6 +16,7 @@
 #include "kinesphere/monitor/monitor.hpp"
 #include "kinesphere/recording.hpp"
 #include "kinesphere/simulation.hpp"
+#include "kinesphere/step_potential.hpp"
 #include "kinesphere/workers.hpp"
 #include "number/scope_guard.hpp"
 
@@ -71,6 +72,13 @@ struct MeshObject {
   Usage usage{};
 };
 
+struct StepPotentialObject {
+  explicit StepPotentialObject(StepPotential of) : potential(std::move(of)) {}
+
+  StepPotential potential;
+  Usage usage{};
+};
+
 /// Throws BadResult inside callbacks of the world: for changes that do not begin with a call of the world.
 inline void require_idle(World& world) { world.reserve(0).value(); }
 
@@ -79,6 +87,7 @@ HandleTable<WorldObject>& table_of(ks_world);
 HandleTable<MonitorObject>& table_of(ks_monitor);
 HandleTable<ReplayObject>& table_of(ks_replay);
 HandleTable<MeshObject>& table_of(ks_mesh);
+HandleTable<StepPotentialObject>& table_of(ks_step_potential);
 
 [[noreturn]] void refuse_handle(std::string_view call, HandleState state);
 [[noreturn]] void refuse_use(std::string_view call);

@@ -741,6 +741,11 @@ typedef struct ks_response {
   ks_vec3 second_velocity;
   ks_vec3 first_angular_velocity;
   ks_vec3 second_angular_velocity;
+  /// Of sensors: the two have been turned back at the sensor distance (ks_world_turn_back).
+  ks_bool turned_back;
+  ks_bool sets_pair_state;  ///< the two get this state (ks_world_set_pair_state)
+  int32_t pair_state;
+  int32_t reserved;  ///< 0
 } ks_response;
 static inline ks_response ks_new_response(void) {
   ks_response response;
@@ -756,6 +761,62 @@ static inline ks_response ks_new_response(void) {
 /// actions and `stop` afterwards.
 KS_API ks_status ks_bounce(const ks_event* event, double restitution, double resting_speed,
                            ks_response* response);
+
+/// How rough spheres or discs bounce: Walton's model (Roughness in kinesphere/response.hpp).
+typedef struct ks_roughness {
+  uint32_t struct_size;
+  int32_t reserved;    ///< 0
+  double restitution;  ///< in [0, 1], default 1: along the normal
+  /// in [-1, 1], default 1: what is left of the tangential velocity of the surfaces in a contact that sticks,
+  /// turned back; -1 is smooth
+  double tangential_restitution;
+  double friction;  ///< >= 0, default INFINITY: coefficient beyond which a contact slides
+  double inertia;   ///< > 0, default 0.4: moment of inertia in units of mass and squared radius
+} ks_roughness;
+KS_API ks_status ks_roughness_init(ks_roughness* roughness, uint32_t struct_size);
+static inline ks_roughness ks_default_roughness(void) {
+  ks_roughness roughness;
+  ks_roughness_init(&roughness, (uint32_t)sizeof roughness);
+  return roughness;
+}
+/// As ks_bounce(), for balls that turn: rigid bodies of one part, a ball around the position.
+KS_API ks_status ks_bounce_rough(const ks_event* event, const ks_roughness* roughness, ks_response* response);
+
+/// A potential of steps between pairs of bodies, as a response to events (kinesphere/step_potential.hpp):
+/// square wells, Lennard-Jones potentials in steps, bonds. A handle of zero never names one.
+typedef struct ks_step_potential {
+  uint64_t value;
+} ks_step_potential;
+
+/// The energy of a pair, as a function of its gap. Fields and ranges: kinesphere/step_potential.hpp.
+typedef struct ks_step_potential_definition {
+  uint32_t struct_size;
+  int32_t reserved;         ///< 0
+  size_t count;             ///< number of distances
+  const double* distances;  ///< `count` gaps between two surfaces, ascending (length)
+  const double* energies;   ///< `count` energies of pairs that are nearer, but not than the distance before
+  double outside;           ///< energy beyond the last distance; infinity for a bond
+  double restitution;       ///< of contacts, in [0, 1], default 1
+} ks_step_potential_definition;
+KS_API ks_status ks_step_potential_definition_init(ks_step_potential_definition* definition,
+                                                   uint32_t struct_size);
+static inline ks_step_potential_definition ks_default_step_potential_definition(void) {
+  ks_step_potential_definition definition;
+  ks_step_potential_definition_init(&definition, (uint32_t)sizeof definition);
+  return definition;
+}
+/// Creates a potential for worlds with the definition of this one, whose bodies need a sensor with its distances
+/// (ks_world_set_sensor); the arrays are copied. Errors: those of StepPotential::create().
+KS_API KS_MUST_CHECK ks_status ks_step_potential_create(ks_world world,
+                                                        const ks_step_potential_definition* definition,
+                                                        ks_step_potential* potential);
+KS_API ks_status ks_step_potential_destroy(ks_step_potential potential);
+/// Writes the response to an event, for a ks_respond or a loop: at a step of the potential the two gain or lose
+/// what their energy changes by, or are turned back; at a contact they bounce. Overwrites the whole response.
+KS_API ks_status ks_step_potential_respond(ks_step_potential potential, const ks_event* event,
+                                           ks_response* response);
+/// The potential energy of a pair with this gap (length).
+KS_API ks_status ks_step_potential_energy(ks_step_potential potential, double gap, double* energy);
 
 /// Hash of a set of events (kinesphere/event_hash.hpp); all zeros at first. Equal values mean bit-identical
 /// runs.

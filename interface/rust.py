@@ -40,6 +40,7 @@ by_hand = {
     "ks_rigid_definition",
     "ks_run_definition",
     "ks_game_definition",
+    "ks_step_potential_definition",
     "ks_event_list",
     "ks_body_list",
     "ks_motion_definition",
@@ -50,6 +51,7 @@ by_hand = {
 # What callers give; the library gives all other records.
 given = {
     "ks_filter",
+    "ks_roughness",
     "ks_world_definition",
     "ks_body_definition",
     "ks_motion_limits",

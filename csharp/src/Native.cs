@@ -109,6 +109,27 @@ namespace Kinesphere
         }
 
         [StructLayout(LayoutKind.Sequential)]
+        public struct StepPotentialDefinition
+        {
+            public uint structSize;
+            public int Reserved;
+            public UIntPtr Count;
+            public double* Distances;
+            public double* Energies;
+            public double Outside;
+            public double Restitution;
+            public static StepPotentialDefinition Default
+            {
+                get
+                {
+                    StepPotentialDefinition made;
+                    Native.Check(Native.ks_step_potential_definition_init(out made, Native.SizeOf<StepPotentialDefinition>()));
+                    return made;
+                }
+            }
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
         public struct EventList
         {
             public UIntPtr Count;
@@ -321,6 +342,20 @@ namespace Kinesphere
         public static extern IntPtr ks_event_kind_name(EventKind kind);
         [DllImport(library)]
         public static extern int ks_bounce(ref Event @event, double restitution, double restingSpeed, ref Response response);
+        [DllImport(library)]
+        public static extern int ks_roughness_init(out Roughness roughness, uint structSize);
+        [DllImport(library)]
+        public static extern int ks_bounce_rough(ref Event @event, ref Roughness roughness, ref Response response);
+        [DllImport(library)]
+        public static extern int ks_step_potential_definition_init(out StepPotentialDefinition definition, uint structSize);
+        [DllImport(library)]
+        public static extern int ks_step_potential_create(ulong world, ref StepPotentialDefinition definition, out ulong potential);
+        [DllImport(library)]
+        public static extern int ks_step_potential_destroy(ulong potential);
+        [DllImport(library)]
+        public static extern int ks_step_potential_respond(ulong potential, ref Event @event, ref Response response);
+        [DllImport(library)]
+        public static extern int ks_step_potential_energy(ulong potential, double gap, out double energy);
         [DllImport(library)]
         public static extern int ks_event_hash_add(ref EventHash hash, ref Event @event);
         [DllImport(library)]

@@ -495,6 +495,37 @@ namespace Kinesphere
         Vector secondVelocity;
         Vector firstAngularVelocity;
         Vector secondAngularVelocity;
+        int turnedBack;
+        int setsPairState;
+        int pairState;
+        int reserved;
+    }
+
+    /// <summary>How rough spheres or discs bounce: Walton's model.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Roughness
+    {
+        uint structSize;
+        int reserved;
+        /// <summary>In [0, 1], default 1: along the normal.</summary>
+        public double Restitution;
+        /// <summary>In [-1, 1], default 1: what is left of the tangential velocity of the surfaces in a contact that
+        /// sticks, turned back; -1 is smooth.</summary>
+        public double TangentialRestitution;
+        /// <summary>&gt;= 0, default infinity: coefficient beyond which a contact slides.</summary>
+        public double Friction;
+        /// <summary>&gt; 0, default 0.4: moment of inertia in units of mass and squared radius.</summary>
+        public double Inertia;
+        public static Roughness Default
+        {
+            get
+            {
+                Roughness made;
+                Native.Check(Native.ks_roughness_init(out made, Native.SizeOf<Roughness>()));
+                return made;
+            }
+        }
+        internal void Require(string name) { Native.RequireDefault(structSize, "Roughness", name); }
     }
 
     /// <summary>Hash of a set of events ; all zeros at first. Equal values mean bit-identical runs.</summary>

@@ -47,6 +47,8 @@ namespace Kinesphere
             if (response.Second.HasValue) SetVelocity(happened.Second, response.Second.Value);
             if (response.FirstAngularVelocity.HasValue) SetAngularVelocity(happened.First, response.FirstAngularVelocity.Value);
             if (response.SecondAngularVelocity.HasValue) SetAngularVelocity(happened.Second, response.SecondAngularVelocity.Value);
+            if (response.TurnedBack) TurnBack(happened);
+            if (response.PairState.HasValue) SetPairState(happened.First, happened.Second, response.PairState.Value);
             Act(happened.First, response.FirstAction);
             Act(happened.Second, response.SecondAction);
         }

@@ -656,6 +656,45 @@ static class SharedScene
         }
     }
 
+    static void WellsAndRoughness()
+    {
+        var definition = WorldDefinition.Default;
+        definition.Contacts = Contacts.Impacts;
+        using (var world = new World(definition))
+        {
+            var start = new[] { new State(new Vector(-0.6, 0, 0), new Vector(0.5, 0, 0)),
+                                new State(new Vector(0.6, 0, 0), new Vector(-0.5, 0, 0)) };
+            var ids = world.AddBallistic(start, BodyDefinition.Default, new Vector(), new[] { 0.5, 0.5 });
+            world.SetSensor(0, new[] { 0.5 });
+            var well = new StepPotential(world, new[] { 0.5 }, new[] { -1.0 });
+            Require(well.Energy(0.4) == -1 && well.Energy(0.6) == 0, "energies");
+            int turns = 0, contacts = 0;
+            world.Run(20, respond: well.Respond, sink: happened =>
+            {
+                turns += well.Respond(happened).TurnedBack ? 1 : 0;
+                contacts += happened.Kind == EventKind.ContactBegin ? 1 : 0;
+            });
+            for (var next = world.Advance(40); next.Kind != EventKind.None; next = world.Advance(40))
+            {
+                turns += well.Respond(next).TurnedBack ? 1 : 0;
+                world.Apply(next, well.Respond(next));
+                contacts += next.Kind == EventKind.ContactBegin ? 1 : 0;
+                if (next.Kind != EventKind.ContactBegin) continue;
+                var smooth = Roughness.Default;
+                smooth.TangentialRestitution = -1;
+                Require(next.Bounce(smooth).First.Value.X == next.Bounce(1).First.Value.X, "smooth balls");
+                smooth.Friction = -1;
+                RequireArgument("rough", () => next.Bounce(new Roughness()));
+                RequireStatus("out_of_range", () => next.Bounce(smooth));
+            }
+            Require(Math.Abs(turns - 40) <= 1 && Math.Abs(contacts - 40) <= 1, "turned back: " + turns);
+            Require(world.SensorOverlaps(ids[0]).Length == 1, "still within the well");
+            RequireStatus("out_of_range", () => new StepPotential(world, new[] { 0.5, 0.4 }, new[] { 0.0, 1.0 }));
+            well.Dispose();
+            RequireStatus("stale_handle", () => well.Energy(1));
+        }
+    }
+
     static int Main()
     {
         ulong random = 1;
@@ -679,6 +718,7 @@ static class SharedScene
         AtOnce(NewWorld(start, radii), happened => happened.Bounce(0.9), 2);
         Play(number);
         Games();
+        WellsAndRoughness();
         WrongUse();
         WrongArguments();
         Callbacks();

@@ -674,6 +674,49 @@ impl Event {
     }
 }
 
+/// How rough spheres or discs bounce: Walton's model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roughness {
+    /// In [0, 1], default 1: along the normal.
+    pub restitution: f64,
+    /// In [-1, 1], default 1: what is left of the tangential velocity of the surfaces in a contact that sticks,
+    /// turned back; -1 is smooth.
+    pub tangential_restitution: f64,
+    /// >= 0, default infinity: coefficient beyond which a contact slides.
+    pub friction: f64,
+    /// > 0, default 0.4: moment of inertia in units of mass and squared radius.
+    pub inertia: f64,
+}
+
+impl Roughness {
+    pub(crate) fn of(raw: &sys::ks_roughness) -> Roughness {
+        Roughness {
+            restitution: raw.restitution,
+            tangential_restitution: raw.tangential_restitution,
+            friction: raw.friction,
+            inertia: raw.inertia,
+        }
+    }
+    /// The record of C.
+    pub(crate) fn raw(&self) -> sys::ks_roughness {
+        sys::ks_roughness {
+            struct_size: std::mem::size_of::<sys::ks_roughness>() as u32,
+            reserved: Default::default(),
+            restitution: self.restitution,
+            tangential_restitution: self.tangential_restitution,
+            friction: self.friction,
+            inertia: self.inertia,
+        }
+    }
+}
+
+/// The defaults of the library.
+impl Default for Roughness {
+    fn default() -> Roughness {
+        Roughness::of(&sys::ks_roughness::new())
+    }
+}
+
 /// When a contact or an approach may happen first. It certainly does not happen before `time`.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Prediction {

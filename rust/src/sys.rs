@@ -393,12 +393,69 @@ pub struct ks_response {
     pub second_velocity: Vec3,
     pub first_angular_velocity: Vec3,
     pub second_angular_velocity: Vec3,
+    pub turned_back: i32,
+    pub sets_pair_state: i32,
+    pub pair_state: i32,
+    pub reserved: i32,
 }
 
 impl ks_response {
     /// All zeros, with its size: to be filled.
     pub fn new() -> Self {
         Self { struct_size: std::mem::size_of::<Self>() as u32, ..Default::default() }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ks_roughness {
+    pub struct_size: u32,
+    pub reserved: i32,
+    pub restitution: f64,
+    pub tangential_restitution: f64,
+    pub friction: f64,
+    pub inertia: f64,
+}
+
+impl ks_roughness {
+    /// The defaults of the library.
+    pub fn new() -> Self {
+        let mut made = std::mem::MaybeUninit::<Self>::zeroed();
+        // It fails for a library with another layout only, and then leaves the size 0, which is refused.
+        unsafe {
+            ks_roughness_init(made.as_mut_ptr(), std::mem::size_of::<Self>() as u32);
+            made.assume_init()
+        }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ks_step_potential {
+    pub value: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct ks_step_potential_definition {
+    pub struct_size: u32,
+    pub reserved: i32,
+    pub count: usize,
+    pub distances: *const f64,
+    pub energies: *const f64,
+    pub outside: f64,
+    pub restitution: f64,
+}
+
+impl ks_step_potential_definition {
+    /// The defaults of the library.
+    pub fn new() -> Self {
+        let mut made = std::mem::MaybeUninit::<Self>::zeroed();
+        // It fails for a library with another layout only, and then leaves the size 0, which is refused.
+        unsafe {
+            ks_step_potential_definition_init(made.as_mut_ptr(), std::mem::size_of::<Self>() as u32);
+            made.assume_init()
+        }
     }
 }
 
@@ -752,7 +809,10 @@ const _: () = {
     assert!(std::mem::size_of::<ks_timings>() == 24);
     assert!(std::mem::size_of::<ks_busy_body>() == 88);
     assert!(std::mem::size_of::<ks_event>() == 400);
-    assert!(std::mem::size_of::<ks_response>() == 128);
+    assert!(std::mem::size_of::<ks_response>() == 144);
+    assert!(std::mem::size_of::<ks_roughness>() == 40);
+    assert!(std::mem::size_of::<ks_step_potential>() == 8);
+    assert!(std::mem::size_of::<ks_step_potential_definition>() == 48);
     assert!(std::mem::size_of::<ks_event_hash>() == 16);
     assert!(std::mem::size_of::<ks_run_definition>() == 56);
     assert!(std::mem::size_of::<ks_game_definition>() == 64);
@@ -844,6 +904,13 @@ extern "C" {
     pub fn ks_probe_reason_advice(reason: i32) -> *const c_char;
     pub fn ks_event_kind_name(kind: i32) -> *const c_char;
     pub fn ks_bounce(event: *const ks_event, restitution: f64, resting_speed: f64, response: *mut ks_response) -> ks_status;
+    pub fn ks_roughness_init(roughness: *mut ks_roughness, struct_size: u32) -> ks_status;
+    pub fn ks_bounce_rough(event: *const ks_event, roughness: *const ks_roughness, response: *mut ks_response) -> ks_status;
+    pub fn ks_step_potential_definition_init(definition: *mut ks_step_potential_definition, struct_size: u32) -> ks_status;
+    pub fn ks_step_potential_create(world: ks_world, definition: *const ks_step_potential_definition, potential: *mut ks_step_potential) -> ks_status;
+    pub fn ks_step_potential_destroy(potential: ks_step_potential) -> ks_status;
+    pub fn ks_step_potential_respond(potential: ks_step_potential, event: *const ks_event, response: *mut ks_response) -> ks_status;
+    pub fn ks_step_potential_energy(potential: ks_step_potential, gap: f64, energy: *mut f64) -> ks_status;
     pub fn ks_event_hash_add(hash: *mut ks_event_hash, event: *const ks_event) -> ks_status;
     pub fn ks_event_hash_value(hash: *const ks_event_hash, value: *mut u64) -> ks_status;
     pub fn ks_world_set_pair_state(world: ks_world, first: BodyId, second: BodyId, state: i32) -> ks_status;

@@ -355,6 +355,12 @@ impl World {
         if let (Some(body), Some(spin)) = (event.second, response.second_angular_velocity) {
             self.set_angular_velocity(body, spin)?;
         }
+        if response.turned_back {
+            self.turn_back(event)?;
+        }
+        if let (Some(second), Some(state)) = (event.second, response.pair_state) {
+            self.set_pair_state(event.first, second, state)?;
+        }
         self.act(event.first, response.first_action)?;
         event.second.map_or(Ok(()), |body| self.act(body, response.second_action))
     }

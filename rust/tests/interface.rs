@@ -637,3 +637,61 @@ fn wrong_use_of_games_is_told() {
     *game = World::new(&WorldDefinition::default()).unwrap();
     assert_eq!(game.step(1.0).unwrap_err().name, "unsupported");
 }
+
+/// A world of two balls of radius 1/2 and mass 1 with this gap, which fly towards each other at this speed.
+fn head_on(gap: f64, speed: f64) -> (World, [BodyId; 2]) {
+    let mut world =
+        World::new(&WorldDefinition { contacts: Contacts::Impacts, ..Default::default() }).unwrap();
+    let at = |x: f64, v: f64| State { position: Vec3::new(x, 0.0, 0.0), velocity: Vec3::new(v, 0.0, 0.0) };
+    let start = [at(-0.5 - gap / 2.0, speed / 2.0), at(0.5 + gap / 2.0, -speed / 2.0)];
+    let gravity = Vec3::default();
+    let (radii, like) = ([0.5; 2], BodyDefinition::default());
+    let (_, ids) = world.add_motion(Motion::Ballistic { gravity }, &start, &radii, &[], &like).unwrap();
+    world.set_sensor(0, &[0.5], u64::MAX).unwrap();
+    (world, [ids[0], ids[1]])
+}
+
+#[test]
+fn a_well_speeds_up_and_holds_back() {
+    let (mut world, ids) = head_on(2.0, 1.0);
+    let definition = StepPotentialDefinition { distances: &[0.5], energies: &[-1.0], ..Default::default() };
+    let well = StepPotential::new(&world, &definition).unwrap();
+    assert_eq!((well.energy(0.4), well.energy(0.6)), (-1.0, 0.0));
+    let respond = |event: &Event| well.respond(event).unwrap();
+    world.run(1.6, Run::Respond(&respond), 2, |_, event| assert_eq!(event.kind, EventKind::SensorEnter)).unwrap();
+    let states = world.states(&ids, 1.6).unwrap();
+    let speed = states[0].velocity.x - states[1].velocity.x;
+    assert!((speed - 5.0_f64.sqrt()).abs() < 1e-12);
+
+    // Two that begin inside have not enough energy to leave, in a loop, too.
+    let (mut world, ids) = head_on(0.2, 1.0);
+    let mut turns = 0;
+    while let Some(event) = world.advance_motions(40.0).unwrap() {
+        let response = well.respond(&event).unwrap();
+        turns += response.turned_back as i32;
+        world.apply(&event, response).unwrap();
+    }
+    assert!((39..=41).contains(&turns) && world.sensor_overlaps(ids[0]).unwrap().len() == 1);
+    let wrong = StepPotentialDefinition { distances: &[0.5, 0.4], energies: &[0.0, 1.0], ..Default::default() };
+    assert_eq!(StepPotential::new(&world, &wrong).unwrap_err().name, "out_of_range");
+}
+
+#[test]
+fn rough_balls_turn_each_other() {
+    let mut world = World::new(&WorldDefinition::default()).unwrap();
+    let part = RigidPart { a: Vec3::default(), b: Vec3::default(), radius: 0.5 };
+    for side in [-1.0, 1.0] {
+        let position = Vec3::new(2.0 * side, 0.0, 0.0);
+        let velocity = Vec3::new(-side, side, 0.0);
+        let body = BodyDefinition { position, velocity, ..Default::default() };
+        world.add_rigid_body(&body, &RigidDefinition::new(vec![part])).unwrap();
+    }
+    let still = |_: &[BodyId], _: f64, _: &mut [State]| unreachable!("they promise to go straight on");
+    world.set_velocity(world.bodies()[0], Vec3::new(1.0, 0.0, 0.0)).unwrap();
+    world.set_velocity(world.bodies()[1], Vec3::new(-1.0, 0.0, 0.0)).unwrap();
+    let event = world.advance(5.0, still).unwrap().unwrap();
+    let smooth = event.bounce_rough(&Roughness { tangential_restitution: -1.0, ..Default::default() }).unwrap();
+    assert_eq!(smooth.first.unwrap().x, event.bounce(1.0).unwrap().first.unwrap().x);
+    let error = event.bounce_rough(&Roughness { friction: -1.0, ..Default::default() }).unwrap_err();
+    assert_eq!((error.name, error.argument.as_str()), ("out_of_range", "friction"));
+}

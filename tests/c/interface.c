@@ -1056,6 +1056,79 @@ static void responses(void) {
   CHECK(hash != 0 && play_shooting(2) == hash);
 }
 
+// Potentials, and rough bounces.
+
+static int32_t respond_in_well(const ks_event* event, ks_response* response, void* user) {
+  return ks_step_potential_respond(*(const ks_step_potential*)user, event, response);
+}
+
+static void wells(void) {
+  const ks_world world = new_world();
+  const ks_state start[2] = {{vec3(-0.6, 0, 0), vec3(0.5, 0, 0)}, {vec3(0.6, 0, 0), vec3(-0.5, 0, 0)}};
+  const double radii[2] = {0.5, 0.5}, distance = 0.5, depth = -1;
+  ks_body_definition like = ks_default_body_definition();
+  like.contacts = KS_CONTACTS_IMPACTS;
+  ks_motion_definition motion = ks_default_motion_definition();
+  motion.count = 2;
+  motion.states = start;
+  motion.radii = radii;
+  motion.like = &like;
+  ks_body_id ids[2];
+  CHECK_OK(ks_world_add_motion(world, &motion, NULL, ids));
+  CHECK_OK(ks_world_set_sensor(world, 0, &distance, 1, UINT64_MAX));
+  ks_step_potential_definition definition = ks_default_step_potential_definition();
+  definition.count = 1;
+  definition.distances = &distance;
+  definition.energies = &depth;
+  ks_step_potential well;
+  CHECK_OK(ks_step_potential_create(world, &definition, &well));
+  double energy;
+  CHECK_OK(ks_step_potential_energy(well, 0.4, &energy));
+  CHECK(energy == -1);
+  ks_run_definition run = ks_default_run_definition();
+  run.respond = respond_in_well;
+  run.respond_user = &well;
+  CHECK_OK(ks_world_run(world, 20, &run));
+  // In a loop, too. They are turned back once in a unit of time.
+  int turns = 0;
+  ks_event event = ks_new_event();
+  for (;;) {
+    CHECK_OK(ks_world_advance(world, 40, ks_probe_motions, NULL, &event));
+    if (event.kind == KS_EVENT_NONE) break;
+    ks_response response = ks_new_response();
+    CHECK_OK(ks_step_potential_respond(well, &event, &response));
+    if (response.turns_first) CHECK_OK(ks_world_set_velocity(world, event.first, response.first_velocity));
+    if (response.turns_second) CHECK_OK(ks_world_set_velocity(world, event.second, response.second_velocity));
+    if (response.turned_back) CHECK_OK(ks_world_turn_back(world, &event));
+    turns += response.turned_back;
+    if (event.kind != KS_EVENT_CONTACT_BEGIN) continue;
+    ks_roughness smooth = ks_default_roughness();
+    smooth.tangential_restitution = -1;
+    ks_response rough = ks_new_response();
+    CHECK_OK(ks_bounce_rough(&event, &smooth, &rough));
+    CHECK(rough.turns_first && rough.first_velocity.x == response.first_velocity.x && !rough.spins_first);
+    smooth.friction = -1;
+    CHECK_STATUS(ks_bounce_rough(&event, &smooth, &rough), KS_ERROR_OUT_OF_RANGE);
+    // A program that was compiled earlier has a shorter record.
+    ks_response earlier = ks_new_response();
+    earlier.struct_size = (uint32_t)offsetof(ks_response, turned_back);
+    earlier.reserved = 77;
+    CHECK_OK(ks_bounce(&event, 1, 0, &earlier));
+    CHECK(earlier.reserved == 77 && earlier.first_velocity.x == response.first_velocity.x);
+  }
+  CHECK(19 <= turns && turns <= 21);
+  size_t count;
+  ks_sensor_overlap overlap;
+  CHECK_OK(ks_world_sensor_overlaps(world, ids[0], &overlap, 1, &count));
+  CHECK(count == 1);
+  definition.restitution = 2;
+  ks_step_potential wrong;
+  CHECK_STATUS(ks_step_potential_create(world, &definition, &wrong), KS_ERROR_OUT_OF_RANGE);
+  CHECK_OK(ks_step_potential_destroy(well));
+  CHECK_STATUS(ks_step_potential_energy(well, 0.4, &energy), KS_ERROR_STALE_HANDLE);
+  CHECK_OK(ks_world_destroy(world));
+}
+
 // Games.
 
 static ks_world new_game(const ks_game_definition* definition) {
@@ -1200,6 +1273,7 @@ int main(void) {
   status_names();
   monitors();
   predictions_and_shards();
+  wells();
   games_of_bodies();
   games_of_events();
   puts("all parts of the interface work");

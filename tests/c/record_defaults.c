@@ -80,6 +80,25 @@ static void rigid_definition(void) {
   CHECK(made.hulls == NULL);
 }
 
+static void roughness(void) {
+  const ks_roughness made = ks_default_roughness();
+  CHECK(made.reserved == 0);
+  CHECK(made.restitution == 1);
+  CHECK(made.tangential_restitution == 1);
+  CHECK(made.friction == INFINITY);
+  CHECK(made.inertia == 0.4);
+}
+
+static void step_potential_definition(void) {
+  const ks_step_potential_definition made = ks_default_step_potential_definition();
+  CHECK(made.reserved == 0);
+  CHECK(made.count == 0);
+  CHECK(made.distances == NULL);
+  CHECK(made.energies == NULL);
+  CHECK(made.outside == 0);
+  CHECK(made.restitution == 1);
+}
+
 static void run_definition(void) {
   const ks_run_definition made = ks_default_run_definition();
   CHECK(made.threads == 1);
@@ -175,6 +194,8 @@ int main(void) {
   body_definition();
   static_definition();
   rigid_definition();
+  roughness();
+  step_potential_definition();
   run_definition();
   game_definition();
   motion_definition();

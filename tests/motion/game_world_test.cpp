@@ -244,6 +244,33 @@ TEST(GameWorld, AddsAndTurnsSeveralAtOnce) {
   EXPECT_EQ(game.velocities()[1], (Vec3{1, 0, 0}));
   game.step(0.5).value();
   EXPECT_EQ(game.state(ids[1]).position, Vec3(5.5, 5, 5) + 0.125 * gravity);
+  for (const BodyId id : ids)
+    EXPECT_EQ(game.world().body(id)->definition.planned_acceleration, gravity) << "what the world knows";
+}
+
+TEST(GameWorld, LookingChangesNothing) {
+  GameWorld game =
+      GameWorld::create({.world = {.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = {.x = true}}}).value();
+  const BodyId ball = game.add({.radius = 0.5, .position = {9.1, 5, 5}, .velocity = {4.3, 0.1, 0}}).value();
+  game.world().schedule({.time = 0.37}).value();
+  EXPECT_EQ(game.advance(1.0).value()->kind, EventKind::timer);
+  GameWorld seen = game.clone().value();
+  EXPECT_NEAR(seen.positions()[0].x, 9.1 + 4.3 * 0.37 - 10, 1e-12);
+  for (GameWorld* const one : {&game, &seen}) {
+    one->set_velocity(ball, {0.7, 0, 0}).value();
+    one->step(1.0).value();
+  }
+  EXPECT_EQ(game.save().value(), seen.save().value());
+}
+
+TEST(GameWorld, SteeringLeavesThoseAloneWhoHaveTheirVelocity) {
+  GameWorld game = game_in_room();
+  for (const double x : {2.0, 8.0}) game.add({.radius = 0.5, .position = {x, 5, 5}}).value();
+  game.sleep(game.ids()[0]).value();
+  game.set_velocities(std::vector{Vec3{}, Vec3{1, 0, 0}}).value();
+  EXPECT_TRUE(game.world().body(game.ids()[0])->sleeping);
+  game.set_velocities(std::vector{Vec3{0, 1, 0}, Vec3{1, 0, 0}}).value();
+  EXPECT_FALSE(game.world().body(game.ids()[0])->sleeping);
 }
 
 TEST(GameWorld, AdvancesToEachEvent) {
