@@ -19,8 +19,8 @@ Array = npt.ArrayLike
 Bodies = Union[SupportsIndex, Sequence[SupportsIndex], npt.NDArray[np.integer[Any]]]
 Function = Callable[[Ids, float], tuple[Array, Array]]
 Probe = Union[Motion, BodyMap, MotionSource, Function]
-Response = Union[Bouncing, StepPotential, Scene, Callable[[Event], object]]
-GameResponse = Union[Bouncing, StepPotential, Callable[[Event], object]]
+Response = Union[Bouncing, Roughness, StepPotential, Scene, Callable[[Event], object]]
+GameResponse = Union[Bouncing, Roughness, StepPotential, Callable[[Event], object]]
 Shape = Union[Ball, Box, HalfSpace, Triangle, Mesh]
 Parts = Sequence[Union[Ball, Capsule, Hull]]
 # Velocity and angular velocity.
@@ -227,7 +227,7 @@ def bounce(
     second_mass: Optional[float] = None,
     restitution: float = ...,
 ) -> tuple[Doubles, Optional[Doubles]]: ...
-def bounce_rigid(contact: Event, restitution: float = 1.0) -> tuple[Turned, Turned]: ...
+def bounce_rigid(contact: Event, restitution: Union[float, Roughness] = 1.0) -> tuple[Turned, Turned]: ...
 def settle(
     contact: Event,
     first_mass: Optional[float],
@@ -471,6 +471,23 @@ class Bouncing:
     def __init__(
         self, masses: Optional[Array] = None, restitution: float = 1.0, resting_speed: float = 0.0
     ) -> None: ...
+
+class Roughness:
+    def __init__(
+        self,
+        restitution: float = 1.0,
+        tangential_restitution: float = 1.0,
+        friction: float = ...,
+        inertia: float = 0.4,
+    ) -> None: ...
+    @property
+    def restitution(self) -> float: ...
+    @property
+    def tangential_restitution(self) -> float: ...
+    @property
+    def friction(self) -> float: ...
+    @property
+    def inertia(self) -> float: ...
 
 class StepPotential:
     def __init__(

@@ -36,9 +36,14 @@ struct GameHandle : WorldHandle {
       return [this, &potential = given.cast<const StepPotential&>()](const Event& event) {
         return interruptions->look(), potential.respond(event);
       };
+    if (py::isinstance<Roughness>(given))
+      return [this, &rough = given.cast<const Roughness&>()](const Event& event) {
+        return interruptions->look(), answer_of_rough(event, rough);
+      };
     if (PyCallable_Check(given.ptr()) == 0 || PyType_Check(given.ptr()) != 0)
       throw py::type_error(
-          "GameWorld: respond must be a Bouncing, a StepPotential or a function of an event, but is " +
+          "GameWorld: respond must be a Bouncing, a Roughness, a StepPotential or a function of an event, "
+          "but is " +
           py::repr(given).cast<std::string>());
     return [this](const Event& event) {
       return interruptions->call([&] { return answer_of(respond(event), is_plane()); });
@@ -147,7 +152,7 @@ motions, probes, run() and set_motion_limits() are not, and raise StateError.
       .def(py::init(&create_game), py::arg("gravity") = py::make_tuple(0.0, 0.0, 0.0),
            py::arg("respond") = py::none(),
            R"(gravity (length / time^2): shape (3,), or (2,) in two dimensions; acts on all bodies.
-respond: what gives bodies new velocities at an event: a Bouncing, a StepPotential, or a function as for World.run(),
+respond: what gives bodies new velocities at an event: a Bouncing, a Roughness, a StepPotential, or a function as for World.run(),
 which may depend on the event alone and may not call the game. None: bodies pass through each other.
 All other arguments are those of World, by name.)")
       .def("step", &step_game, py::arg("dt"),

@@ -131,11 +131,14 @@ class Responding {
       bouncing_ = &given.cast<const Bouncing&>();
     } else if (py::isinstance<StepPotential>(given)) {
       potential_ = &given.cast<const StepPotential&>();
+    } else if (py::isinstance<Roughness>(given)) {
+      rough_ = &given.cast<const Roughness&>();
     } else if (py::isinstance<SceneHandle>(given)) {
       scene_ = &given.cast<const SceneHandle&>();
     } else if (PyCallable_Check(given.ptr()) == 0 || PyType_Check(given.ptr()) != 0) {
       throw py::type_error(
-          "run: respond must be a Bouncing, a StepPotential, a Scene or a function of an event, but is " +
+          "run: respond must be a Bouncing, a Roughness, a StepPotential, a Scene or a function of an event, "
+          "but is " +
           py::repr(given).cast<std::string>());
     }
   }
@@ -147,6 +150,7 @@ class Responding {
   Response operator()(const Event& event) const {
     if (bouncing_ != nullptr) return bouncing_->answer(event);
     if (potential_ != nullptr) return potential_->respond(event);
+    if (rough_ != nullptr) return answer_of_rough(event, *rough_);
     if (scene_ != nullptr) {
       check_known(event.first);
       check_known(event.second);
@@ -173,6 +177,7 @@ class Responding {
   py::object given_;
   const Bouncing* bouncing_ = nullptr;
   const StepPotential* potential_ = nullptr;
+  const Roughness* rough_ = nullptr;
   const Scene* scene_ = nullptr;
 };
 
@@ -329,7 +334,7 @@ it is left early, the world stands at the last event. Each step is an advance().
 
 motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any
 probe.
-respond: what gives bodies new velocities at an event: a Bouncing, a StepPotential, a Scene, or a function of the Event that
+respond: what gives bodies new velocities at an event: a Bouncing, a Roughness, a StepPotential, a Scene, or a function of the Event that
 returns None or (first velocity or None, second velocity or None); for a rigid body a tuple (velocity or None,
 angular velocity or None), as bounce_rigid() makes it, may take the place of its velocity; for any body so may
 'remove', 'disable' or 'sleep', which do to it what the methods of the world do. (first, second, 'stop') stops the

@@ -658,7 +658,9 @@ fn a_well_speeds_up_and_holds_back() {
     let well = StepPotential::new(&world, &definition).unwrap();
     assert_eq!((well.energy(0.4), well.energy(0.6)), (-1.0, 0.0));
     let respond = |event: &Event| well.respond(event).unwrap();
-    world.run(1.6, Run::Respond(&respond), 2, |_, event| assert_eq!(event.kind, EventKind::SensorEnter)).unwrap();
+    world
+        .run(1.6, Run::Respond(&respond), 2, |_, event| assert_eq!(event.kind, EventKind::SensorEnter))
+        .unwrap();
     let states = world.states(&ids, 1.6).unwrap();
     let speed = states[0].velocity.x - states[1].velocity.x;
     assert!((speed - 5.0_f64.sqrt()).abs() < 1e-12);
@@ -672,7 +674,8 @@ fn a_well_speeds_up_and_holds_back() {
         world.apply(&event, response).unwrap();
     }
     assert!((39..=41).contains(&turns) && world.sensor_overlaps(ids[0]).unwrap().len() == 1);
-    let wrong = StepPotentialDefinition { distances: &[0.5, 0.4], energies: &[0.0, 1.0], ..Default::default() };
+    let wrong =
+        StepPotentialDefinition { distances: &[0.5, 0.4], energies: &[0.0, 1.0], ..Default::default() };
     assert_eq!(StepPotential::new(&world, &wrong).unwrap_err().name, "out_of_range");
 }
 
@@ -680,18 +683,26 @@ fn a_well_speeds_up_and_holds_back() {
 fn rough_balls_turn_each_other() {
     let mut world = World::new(&WorldDefinition::default()).unwrap();
     let part = RigidPart { a: Vec3::default(), b: Vec3::default(), radius: 0.5 };
-    for side in [-1.0, 1.0] {
-        let position = Vec3::new(2.0 * side, 0.0, 0.0);
-        let velocity = Vec3::new(-side, side, 0.0);
-        let body = BodyDefinition { position, velocity, ..Default::default() };
-        world.add_rigid_body(&body, &RigidDefinition::new(vec![part])).unwrap();
+    let start = [-1.0, 1.0].map(|side| State {
+        position: Vec3::new(2.0 * side, 0.2 * side, 0.0),
+        velocity: Vec3::new(-side, 0.0, 0.0),
+    });
+    for state in start {
+        world.add_rigid_body(&state.into(), &RigidDefinition::new(vec![part])).unwrap();
     }
-    let still = |_: &[BodyId], _: f64, _: &mut [State]| unreachable!("they promise to go straight on");
-    world.set_velocity(world.bodies()[0], Vec3::new(1.0, 0.0, 0.0)).unwrap();
-    world.set_velocity(world.bodies()[1], Vec3::new(-1.0, 0.0, 0.0)).unwrap();
-    let event = world.advance(5.0, still).unwrap().unwrap();
-    let smooth = event.bounce_rough(&Roughness { tangential_restitution: -1.0, ..Default::default() }).unwrap();
-    assert_eq!(smooth.first.unwrap().x, event.bounce(1.0).unwrap().first.unwrap().x);
+    let flight = |ids: &[BodyId], time: f64, states: &mut [State]| {
+        for (id, state) in ids.iter().zip(states) {
+            let from = start[id.index()];
+            *state = State { position: from.position + from.velocity * time, ..from };
+        }
+    };
+    let event = world.advance(5.0, flight).unwrap().unwrap();
+    let after = event.bounce_rough(&Roughness::default()).unwrap();
+    let square = |v: Vec3| v.x * v.x + v.y * v.y + v.z * v.z;
+    let (turning, flying) = (after.first_angular_velocity.unwrap(), after.first.unwrap());
+    assert!(turning.z != 0.0 && (square(flying) + 0.4 * 0.25 * square(turning) - 1.0).abs() < 1e-12);
+    let smooth = Roughness { tangential_restitution: -1.0, ..Default::default() };
+    assert_eq!(event.bounce_rough(&smooth).unwrap().first, event.bounce(1.0).unwrap().first);
     let error = event.bounce_rough(&Roughness { friction: -1.0, ..Default::default() }).unwrap_err();
     assert_eq!((error.name, error.argument.as_str()), ("out_of_range", "friction"));
 }

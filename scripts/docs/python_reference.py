@@ -24,7 +24,7 @@ GROUPS = {
     "Shapes and starts": "Ball Box Capsule HalfSpace Hull Mesh Triangle place_spheres",
     "Motions": "Motion Ballistic RandomForces VelocityField Circulation RecordedTracks SteeredMotion FrameMotion"
     " MotionSource BodyMap",
-    "Responses": "Bouncing StepPotential bounce bounce_rigid settle least_resting_speed",
+    "Responses": "Bouncing Roughness StepPotential bounce bounce_rigid settle least_resting_speed",
     "Monitors": "Monitor TrackClass Separation SeparationRule ErrorBound Shard Verdict MonitorEvent MonitorEvents"
     " MonitorEventKind MonitorEventIterator PairAnswer TrackView TrackPlace MonitorCounters",
     "Recordings of motion, streams and known paths": "tracks tracks_in Approaches watch Alerts PolynomialPaths"
