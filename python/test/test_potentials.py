@@ -94,8 +94,8 @@ def test_rough_balls_share_their_energy_with_rotation() -> None:
     start = np.sum(game.velocities**2)
     game.step(10.0)
     parts = []
-    for _ in range(40):
-        game.step(1.0)
+    for _ in range(100):
+        game.step(4.0)
         parts.append((np.sum(game.velocities**2), 0.4 * 0.25 * np.sum(game.rotations(game.ids)[1] ** 2)))
     flying, turning = np.mean(parts, axis=0)
     assert np.sum(parts, axis=1) == pytest.approx(start, rel=1e-10)
