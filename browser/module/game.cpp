@@ -1,4 +1,5 @@
 // Games: worlds that move their own bodies. JavaScript has a game by the address of its world.
+#include <array>
 #include <map>
 #include <memory>
 #include <span>
@@ -7,6 +8,7 @@
 #include "body.hpp"
 #include "exchange.hpp"
 #include "kinesphere/game_world.hpp"
+#include "kinesphere/step_potential.hpp"
 #include "numbers.hpp"
 #include "rigid_bodies.hpp"
 
@@ -27,12 +29,34 @@ World* kept(Result<GameWorld> game) {
   return world;
 }
 
-GameResponse response_by(Responding responding, double restitution, double resting_speed) {
-  if (responding == Responding::asks_javascript)
-    return [](const Event& event) { return ask_javascript(event); };
-  if (responding == Responding::nothing) return {};
-  return [=](const Event& event) { return bounce_off(event, {}, restitution, resting_speed); };
-}
+/// What answers the events of a game.
+struct Answering {
+  Responding responding;
+  double restitution;
+  double resting_speed;
+  const double* rough;  ///< the numbers of bounce_roughly()
+  const StepPotential* potential;
+
+  GameResponse response() const {
+    switch (responding) {
+      case Responding::nothing:
+      case Responding::as_in_scene:
+        return {};
+      case Responding::bounces:
+        return
+            [e = restitution, v = resting_speed](const Event& event) { return bounce_off(event, {}, e, v); };
+      case Responding::asks_javascript:
+        return [](const Event& event) { return ask_javascript(event); };
+      case Responding::by_potential:
+        return [own = *potential](const Event& event) { return own.respond(event); };
+      case Responding::rough:
+        return [e = restitution, numbers = std::array{rough[0], rough[1], rough[2]}](const Event& event) {
+          return bounce_roughly(event, e, numbers.data());
+        };
+    }
+    return {};
+  }
+};
 
 double numbered(const Result<BodyId>& id) { return is_good(id) ? number_of(*id) : no_id; }
 
@@ -40,16 +64,17 @@ double numbered(const Result<BodyId>& id) { return is_good(id) ? number_of(*id) 
 
 KINESPHERE_EXPORT(game_create)
 World* game_create(const double* definition, const double* gravity, Responding responding, double restitution,
-                   double resting_speed) {
-  return kept(GameWorld::create({.world = definition_at(definition),
-                                 .gravity = vector_at(gravity),
-                                 .response = response_by(responding, restitution, resting_speed)}));
+                   double resting_speed, const double* rough, const StepPotential* potential) {
+  const Answering answering{responding, restitution, resting_speed, rough, potential};
+  return kept(GameWorld::create(
+      {.world = definition_at(definition), .gravity = vector_at(gravity), .response = answering.response()}));
 }
 KINESPHERE_EXPORT(game_restore)
 World* game_restore(const std::byte* snapshot, std::size_t size, double filter, Responding responding,
-                    double restitution, double resting_speed) {
-  return kept(GameWorld::restore({snapshot, size}, response_by(responding, restitution, resting_speed),
-                                 pair_filter_of(filter)));
+                    double restitution, double resting_speed, const double* rough,
+                    const StepPotential* potential) {
+  const Answering answering{responding, restitution, resting_speed, rough, potential};
+  return kept(GameWorld::restore({snapshot, size}, answering.response(), pair_filter_of(filter)));
 }
 KINESPHERE_EXPORT(game_clone) World* game_clone(const World* world) { return kept(game_of(world).clone()); }
 KINESPHERE_EXPORT(game_free) void game_free(const World* world) { games().erase(world); }
@@ -59,8 +84,10 @@ KINESPHERE_EXPORT(game_save) bool game_save(const World* world) {
   return is_good(saved);
 }
 KINESPHERE_EXPORT(game_set_response)
-bool game_set_response(const World* world, Responding responding, double restitution, double resting_speed) {
-  return is_good(game_of(world).set_response(response_by(responding, restitution, resting_speed)));
+bool game_set_response(const World* world, Responding responding, double restitution, double resting_speed,
+                       const double* rough, const StepPotential* potential) {
+  const Answering answering{responding, restitution, resting_speed, rough, potential};
+  return is_good(game_of(world).set_response(answering.response()));
 }
 
 KINESPHERE_EXPORT(game_add_all)

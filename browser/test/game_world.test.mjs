@@ -1,10 +1,10 @@
-// Worlds that move their own bodies.
+// Worlds that move their own bodies, potentials of steps, and rough balls.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { kinesphere, refuses } from "./package_under_test.mjs";
 
-const { Ballistic, bounce, BodyMap, GameWorld, load, World } = kinesphere;
+const { Ballistic, bounce, BodyMap, GameWorld, load, StepPotential, World } = kinesphere;
 await load();
 
 /** A ball of radius 1/2 that falls from a height of 5. */
@@ -89,4 +89,59 @@ test("wrong use of games is told", () => {
   game.remove(ball);
   refuses(() => game.setVelocity(ball, [0, 0, 0]), "stale_body", /has been removed/);
   refuses(() => World.restore(game.save()), "bad_snapshot", /mark of a world/);
+});
+
+/** Two balls of radius 1/2 with a gap of 1/5 that fly towards each other, and a well of depth 1. */
+function inWell(world) {
+  world.setSensor(0, [0.5]);
+  return [{ positions: [-0.6, 0, 0, 0.6, 0, 0], velocities: [0.5, 0, 0, -0.5, 0, 0] },
+          new StepPotential(world, { distances: [0.5], energies: [-1] })];
+}
+
+test("a well holds two in a run, a loop and a game", () => {
+  const turned = (events, well) => [...events].filter((event) => well.respond(event).turnedBack).length;
+  const world = new World({ contacts: "impacts" });
+  const [start, well] = inWell(world);
+  assert.deepEqual([well.energy(0.4), well.energy(0.6)], [-1, 0]);
+  const motion = new Ballistic(start, {});
+  world.addMotion(motion, 0.5);
+  assert.ok(Math.abs(turned(world.run(20, { motion, respond: well }), well) - 20) <= 1);
+  assert.ok(Math.abs(turned(world.run(40, { motion, respond: (event) => well.respond(event) }), well) - 20) <= 1);
+  assert.equal(world.sensorOverlaps(0).length, 1);
+
+  const game = new GameWorld({ contacts: "impacts" });
+  const [pair, own] = inWell(game);
+  game.addAll({ ...pair, radii: 0.5 });
+  game.setRespond(own);
+  own.free();
+  assert.ok(Math.abs(turned(game.step(40), well) - 40) <= 1);
+  assert.equal(game.sensorOverlaps(game.ids[0]).length, 1);
+  refuses(() => new StepPotential(world, { distances: [0.5, 0.4], energies: [0, 1] }), "out_of_range", /distances/);
+  assert.throws(() => new StepPotential(world, { distances: [0.5], energies: [] }), /as many as distances/);
+});
+
+test("an answer gives a pair its state", () => {
+  const game = new GameWorld({ contacts: "impacts" }, { respond: (event) => ({ ...bounce(event), pairState: 7 }) });
+  const [one, other] = game.addAll({ positions: [0, 0, 0, 5, 0, 0], velocities: [1, 0, 0, -1, 0, 0], radii: 1 });
+  game.step(3);
+  assert.equal(game.pairState(one, other), 7);
+});
+
+test("rough balls turn each other", () => {
+  const roughness = { tangentialRestitution: 1 };
+  const game = new GameWorld({}, { respond: { roughness } });
+  const ball = [{ ball: { centre: [0, 0, 0], radius: 0.5 } }];
+  for (const side of [-1, 1])
+    game.addRigidBody(ball, { position: [2 * side, 0.2 * side, 0], velocity: [-side, 0, 0] });
+  const event = game.advance(5);
+  const [x, y] = game.velocities;
+  const { angularVelocity: spin } = game.rotation(game.ids[0]);
+  assert.ok(spin[2] !== 0 && Math.abs(x * x + y * y + 0.1 * spin[2] * spin[2] - 1) < 1e-12);
+  const after = bounce(event, { roughness });
+  assert.deepEqual([...after.first].slice(0, 2), [x, y]);
+  assert.deepEqual(after.firstAngularVelocity[2], spin[2]);
+  const smooth = { roughness: { tangentialRestitution: -1 } };
+  assert.deepEqual([...bounce(event, smooth).first], [...bounce(event).first]);
+  assert.throws(() => bounce(event, { roughness: { friction: -1 } }), /roughness.friction must be >= 0/);
+  assert.throws(() => game.setRespond({ roughness: { inertia: 0 } }), /roughness.inertia must be > 0/);
 });

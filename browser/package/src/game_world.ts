@@ -3,11 +3,12 @@ import { asking, responded, type RespondFunction } from "./asking.js";
 import { definitionNumbers, type WorldDefinition } from "./definition.js";
 import { Event, Events } from "./event.js";
 import type { PairFilter } from "./filter.js";
-import { theModule } from "./module.js";
+import { type Scratch, theModule } from "./module.js";
 import { checkKeys, type Keys, requireBytes, requireNumbers, shown } from "./options.js";
 import type { MotionLimits } from "./records.js";
 import type { Bounces } from "./response.js";
 import { type BodyId, type Vec3, vector } from "./state.js";
+import type { StepPotential } from "./step_potential.js";
 import { World } from "./world.js";
 
 /** What a game has besides its world. */
@@ -18,18 +19,19 @@ export interface GameOptions {
    * What an event does to its bodies: a function of the event alone, or bounces with a restitution and a resting speed.
    * Without it, bodies pass through each other and through walls.
    */
-  respond?: RespondFunction | Omit<Bounces, "masses">;
+  respond?: RespondFunction | Omit<Bounces, "masses"> | StepPotential;
 }
 
 const gameKeys: Keys<GameOptions> = { gravity: true, respond: true };
-const bounceKeys: Keys<Omit<Bounces, "masses">> = { restitution: "number", restingSpeed: "number" };
 
-type Responding = readonly [asked: RespondFunction | null, numbers: readonly [number, number, number]];
+/** The function to call, and the arguments of the module. */
+type Answering = [asked: RespondFunction | null, numbers: (scratch: Scratch) => number[]];
 
-function respondingOf(respond: GameOptions["respond"], call: string): Responding {
-  if (typeof respond === "object" && respond !== null) checkKeys(respond, bounceKeys, "respond", call);
-  const [responding, { restitution = 1, restingSpeed = 0 }, , asked] = responded(respond, call);
-  return [asked, [responding, restitution, restingSpeed]];
+function answeringOf(respond: GameOptions["respond"], call: string): Answering {
+  if (respond !== null && typeof respond === "object" && "masses" in respond)
+    throw new TypeError(`${call}: respond must not have masses: those of the bodies count`);
+  const [responding, { restitution = 1, restingSpeed = 0, masses = [] }, other, asked] = responded(respond, call);
+  return [asked, (scratch) => [responding, restitution, restingSpeed, scratch.numbers(masses), other]];
 }
 
 /**
@@ -44,11 +46,11 @@ export class GameWorld extends World {
   constructor(definition: WorldDefinition = {}, options: GameOptions = {}, restored: number | null = null) {
     const call = "GameWorld";
     checkKeys(options, gameKeys, "options", call);
-    const [asked, numbers] = respondingOf(options.respond, call);
+    const [asked, numbers] = answeringOf(options.respond, call);
     const gravity = vector(options.gravity ?? [0, 0, 0], "gravity", call);
     const module = theModule();
     super(restored ?? module.with((scratch) => module.require(module.call(
-      "game_create", scratch.numbers(definitionNumbers(definition)), scratch.numbers(gravity), ...numbers))), "game_free");
+      "game_create", scratch.numbers(definitionNumbers(definition)), scratch.numbers(gravity), ...numbers(scratch)))), "game_free");
     this.#respond = asked;
   }
   /**
@@ -60,11 +62,11 @@ export class GameWorld extends World {
     requireBytes(snapshot, "snapshot", call);
     if (pairFilter !== null && typeof pairFilter !== "function")
       throw new TypeError(`${call}: pairFilter must be a function or null, but is ${shown(pairFilter)}`);
-    const [, numbers] = respondingOf(options.respond, call);
+    const [, numbers] = answeringOf(options.respond, call);
     const module = theModule();
     const kept = pairFilter === null ? null : module.keepFilter(pairFilter);
     const game = new GameWorld({}, options, module.with((scratch) => module.require(module.call(
-      "game_restore", scratch.bytes(snapshot), snapshot.length, kept?.number ?? -1, ...numbers))));
+      "game_restore", scratch.bytes(snapshot), snapshot.length, kept?.number ?? -1, ...numbers(scratch)))));
     game.keep(kept, null);
     return game;
   }
@@ -108,9 +110,9 @@ export class GameWorld extends World {
   }
   /** Replaces what answers events; clones keep theirs. */
   setRespond(respond: GameOptions["respond"]): void {
-    const [asked, numbers] = respondingOf(respond, "setRespond");
+    const [asked, numbers] = answeringOf(respond, "setRespond");
     const module = theModule();
-    module.require(module.call("game_set_response", this.address, ...numbers));
+    module.with((scratch) => module.require(module.call("game_set_response", this.address, ...numbers(scratch))));
     this.#respond = asked;
   }
 

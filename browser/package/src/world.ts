@@ -25,7 +25,7 @@ import {
   type RotationProbeFunction,
 } from "./rigid_body.js";
 import {
-  type BodyId, countOf, each, type PerBody, requireAsMany, sixOf, type State, type Vec3, vector,
+  type BodyId, countOf, each, pairStateOf, type PerBody, requireAsMany, sixOf, type State, type Vec3, vector,
 } from "./state.js";
 
 /** What the world knows of a body now. */
@@ -706,9 +706,8 @@ export class World extends WorldView {
    */
   setPairState(first: BodyId, second: BodyId, state: number): void {
     const module = theModule();
-    if (!(Number.isInteger(state) && Math.abs(state) < 2 ** 31))
-      throw new RangeError(`setPairState: state must be a whole number of 32 bits, but is ${state}`);
-    module.require(module.call("world_set_pair_state", this.address, first, second, state));
+    const number = pairStateOf(state, "state", "setPairState");
+    module.require(module.call("world_set_pair_state", this.address, first, second, number));
   }
   /** Returns the state of two bodies; 0 if it was never set. */
   pairState(first: BodyId, second: BodyId): number {
