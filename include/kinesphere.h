@@ -268,8 +268,9 @@ typedef struct ks_world {
 /// Which contact events bodies ask for (kinesphere/contact_events.hpp).
 typedef int32_t ks_contacts;
 enum {
-  KS_CONTACTS_OF_WORLD = 0,       ///< of a body: what its world says
-  KS_CONTACTS_IMPACTS = 1,        ///< A begin whenever two touch and approach, and no ends.
+  KS_CONTACTS_OF_WORLD = 0,  ///< of a body: what its world says
+  /// A begin whenever two touch and approach, or are put into each other, and no ends.
+  KS_CONTACTS_IMPACTS = 1,
   KS_CONTACTS_BEGIN_AND_END = 2,  ///< One begin and one end for each contact.
   KS_CONTACTS_ALL = 3             ///< Begins, ends, and each further approach in between.
 };
@@ -279,7 +280,8 @@ typedef uint32_t ks_axes;
 enum { KS_AXIS_X = 1, KS_AXIS_Y = 2, KS_AXIS_Z = 4 };
 
 /// Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other,
-/// unless both are in one group, which decides by its sign (kinesphere/filter.hpp).
+/// unless both are in one group, which decides by its sign (kinesphere/filter.hpp). A body without a filter
+/// of its own, as a floor, has the category 1: a mask without that bit lets its body fall through the floor.
 typedef struct ks_filter {
   uint64_t category;  ///< default 1
   uint64_t mask;      ///< default UINT64_MAX
@@ -805,14 +807,15 @@ static inline ks_step_potential_definition ks_default_step_potential_definition(
   ks_step_potential_definition_init(&definition, (uint32_t)sizeof definition);
   return definition;
 }
-/// Creates a potential for worlds with the definition of this one, whose bodies need a sensor with its distances
-/// (ks_world_set_sensor); the arrays are copied. Errors: those of StepPotential::create().
+/// Creates a potential for worlds with the definition of this one, whose bodies need a sensor with its
+/// distances (ks_world_set_sensor); the arrays are copied. Errors: those of StepPotential::create().
 KS_API KS_MUST_CHECK ks_status ks_step_potential_create(ks_world world,
                                                         const ks_step_potential_definition* definition,
                                                         ks_step_potential* potential);
 KS_API ks_status ks_step_potential_destroy(ks_step_potential potential);
-/// Writes the response to an event, for a ks_respond or a loop: at a step of the potential the two gain or lose
-/// what their energy changes by, or are turned back; at a contact they bounce. Overwrites the whole response.
+/// Writes the response to an event, for a ks_respond or a loop: at a step of the potential the two gain or
+/// lose what their energy changes by, or are turned back; at a contact they bounce. Overwrites the whole
+/// response.
 KS_API ks_status ks_step_potential_respond(ks_step_potential potential, const ks_event* event,
                                            ks_response* response);
 /// The potential energy of a pair with this gap (length).

@@ -12,7 +12,7 @@ namespace Kinesphere
     {
         /// <summary>Of a body: what its world says.</summary>
         OfWorld = 0,
-        /// <summary>A begin whenever two touch and approach, and no ends.</summary>
+        /// <summary>A begin whenever two touch and approach, or are put into each other, and no ends.</summary>
         Impacts = 1,
         /// <summary>One begin and one end for each contact.</summary>
         BeginAndEnd = 2,
@@ -174,7 +174,8 @@ namespace Kinesphere
     }
 
     /// <summary>Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other,
-    /// unless both are in one group, which decides by its sign.</summary>
+    /// unless both are in one group, which decides by its sign. A body without a filter of its own, as a floor, has the
+    /// category 1: a mask without that bit lets its body fall through the floor.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct Filter
     {

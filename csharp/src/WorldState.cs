@@ -99,4 +99,10 @@ namespace Kinesphere
                 Native.ks_world_busiest(handle, Arrays.NotNegative(most, "most"), bodies, capacity, out count));
         }
     }
+
+    public partial struct BusyBody
+    {
+        /// <summary>What the reason means, and what makes such a body cheaper.</summary>
+        public string Advice { get { return Marshal.PtrToStringAnsi(Native.ks_probe_reason_advice(Reason)); } }
+    }
 }

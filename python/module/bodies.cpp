@@ -508,7 +508,10 @@ surfaces approach, and body() has the present radius. Such a ball cannot sleep.)
       .def("set_filter", set_filter, py::arg("bodies"), py::kw_only(), py::arg("category") = 1,
            py::arg("mask") = all_categories, py::arg("group") = 0,
            R"(Two bodies touch if the category of each has a bit in the mask of the other; of the same
-non-zero group, if it is positive.)")
+non-zero group, if it is positive.
+
+A body without a filter of its own, as a floor, has the category 1: a mask without that bit lets its body fall
+through the floor.)")
       .def("set_pair_filter", set_pair_filter, py::arg("function"),
            R"(A function of two ids that says whether these bodies may touch, or None.
 

@@ -6,7 +6,6 @@
 #include "exchange.hpp"
 #include "mover.hpp"
 #include "moving.hpp"
-#include "scenes.hpp"
 #include "simulation/run/scene_answer.hpp"
 #include "threads.hpp"
 #include "world.hpp"

@@ -13,6 +13,8 @@
 #include "events.hpp"
 #include "guard.hpp"
 #include "kinesphere/game_world.hpp"
+#include "simulation/scene/make_scene.hpp"
+#include "simulation/scene/scene.hpp"
 
 namespace kinesphere::python {
 
@@ -98,6 +100,12 @@ auto reading(const char* call, Read read) {
     return read(std::as_const(handle.world));
   };
 }
+
+/// A scene with the parameters that it was made from.
+struct SceneHandle : Scene {
+  SceneHandle(Scene made, SceneParameters given) : Scene(std::move(made)), parameters(std::move(given)) {}
+  SceneParameters parameters;
+};
 
 using WorldClass = py::class_<WorldHandle, std::shared_ptr<WorldHandle>>;
 

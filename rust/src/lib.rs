@@ -37,7 +37,6 @@ mod events;
 mod game;
 mod geometry;
 mod monitor;
-mod profiling;
 mod recording;
 #[rustfmt::skip]
 mod records;

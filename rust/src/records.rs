@@ -9,7 +9,7 @@ use std::fmt;
 /// Which contact events bodies ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Contacts {
-    /// A begin whenever two touch and approach, and no ends.
+    /// A begin whenever two touch and approach, or are put into each other, and no ends.
     Impacts = 1,
     /// One begin and one end for each contact.
     BeginAndEnd = 2,
@@ -251,7 +251,8 @@ impl fmt::Display for MonitorEventKind {
 }
 
 /// Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other, unless
-/// both are in one group, which decides by its sign.
+/// both are in one group, which decides by its sign. A body without a filter of its own, as a floor, has the category
+/// 1: a mask without that bit lets its body fall through the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Filter {
     /// Default 1.

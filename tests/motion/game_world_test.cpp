@@ -540,20 +540,24 @@ TEST(GameWorld, BodiesThatTheWorldAloneKnowsAreTold) {
   }
 }
 
-TEST(GameWorld, ABodyThatAppearsAtRestInsideAnotherIsToldIfItAsksForBegins) {
-  // To bodies that ask for impacts alone it is none: they do not approach, and no bounce could part them.
-  for (const bool asks : {false, true}) {
-    GameWorld game = GameWorld::create({.world = {.contacts = ContactEvents::impacts}}).value();
-    game.add({.radius = 1}).value();
-    BodyDefinition body{.radius = 1, .position = {0.5, 0, 0}};
-    if (asks) body.contacts = ContactEvents::begin_and_end;
-    const BodyId spawned = game.add(body).value();
+TEST(GameWorld, ABodyThatAppearsInsideAnotherIsTold) {
+  // At rest, and flying out of it.
+  for (const double speed : {0.0, 3.0}) {
+    GameWorld game = game_in_room();
+    game.set_gravity({}).value();
+    game.add({.radius = 1, .position = {5, 5, 5}}).value();
+    EXPECT_TRUE(game.step(0.1)->empty());
+    const BodyId spawned =
+        game.add({.radius = 1, .position = {5.5, 5, 5}, .velocity = {speed, 0, 0}}).value();
     const auto events = game.step(0.1).value();
-    ASSERT_EQ(events.size(), asks ? 1u : 0u);
-    if (asks) {
-      EXPECT_EQ(events[0].kind, EventKind::contact_begin);
-    }
-    EXPECT_EQ(game.queries().overlapping({0.5, 0, 0}, 1, {.except = spawned})->size(), 1u);
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].kind, EventKind::contact_begin);
+    EXPECT_EQ(events[0].second, spawned);
+    EXPECT_LT(events[0].gap, -1.0);
+    EXPECT_TRUE(game.step(0.3)->empty()) << "once";
+    // Two that only touch have no event.
+    game.add({.radius = 1, .position = {5, 7, 5}}).value();
+    EXPECT_TRUE(game.step(0.1)->empty());
   }
 }
 

@@ -5,11 +5,10 @@ import type { Module } from "./module.js";
 import { Motion } from "./motion.js";
 import { checkKeys, type Keys, refusePromise, requireNumbers, shown } from "./options.js";
 import { type BodyAction, bodyActions, eventSize } from "./records.js";
-import { bounced, type Bounces, checkBounce, roughNumbers } from "./response.js";
+import { bounced, type Bounces, checkBounce, roughNumbers, StepPotential } from "./response.js";
 import { rotationNumbers, type RotationProbeFunction } from "./rigid_body.js";
 import { Scene } from "./scene.js";
 import { pairStateOf, type Vec3, vector } from "./state.js";
-import { StepPotential } from "./step_potential.js";
 
 /**
  * Sets states[6 k], ... to position and velocity of ids[k] at `time`. Both arrays are good during the call alone.

@@ -6,9 +6,8 @@ import type { PairFilter } from "./filter.js";
 import { type Scratch, theModule } from "./module.js";
 import { checkKeys, type Keys, requireBytes, requireNumbers, shown } from "./options.js";
 import type { MotionLimits } from "./records.js";
-import type { Bounces } from "./response.js";
+import type { Bounces, StepPotential } from "./response.js";
 import { type BodyId, type Vec3, vector } from "./state.js";
-import type { StepPotential } from "./step_potential.js";
 import { World } from "./world.js";
 
 /** What a game has besides its world. */

@@ -6,8 +6,9 @@ export {
   Ballistic, type BallisticOptions, FrameMotion, type FrameMotionOptions, type FrameViolation, type LimitedMotion, Motion,
   type MotionDefinition, RandomForces, type RandomForcesOptions, RecordedTracks, SteeredMotion, type Track,
 } from "./motion.js";
-export { bounce, type Bounce, type BounceOptions, type Bounces, type Roughness } from "./response.js";
-export { StepPotential, type StepPotentialDefinition } from "./step_potential.js";
+export {
+  bounce, type Bounce, type BounceOptions, type Bounces, type Roughness, StepPotential, type StepPotentialDefinition,
+} from "./response.js";
 export type { AnswerOptions, Limits, PairOptions, QueryOptions } from "./answers.js";
 export type { Answer, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
 export type {
