@@ -186,9 +186,9 @@ export class GameWorld extends World {
 }
 
 const gameCalls: ReadonlySet<string> = new Set([
-  "add_all", "add_moving_shape", "add_rigid_body", "remove", "set_velocity", "set_velocity_all", "teleport", "disable",
-  "enable", "sleep", "save",
-].map((name) => `world_${name}`));
+  "world_add_all", "world_add_moving_shape", "world_add_rigid_body", "world_remove", "world_set_velocity",
+  "world_set_velocity_all", "world_teleport", "world_disable", "world_enable", "world_sleep", "world_save",
+]);
 
 function refuse(call: string): never {
   throw new TypeError(`${call}: a GameWorld moves its bodies itself; step(), advance() and events() let time pass`);
