@@ -1,5 +1,6 @@
 // What a world knows, and where its time goes.
 using System;
+using System.Runtime.InteropServices;
 
 namespace Kinesphere
 {
