@@ -1,5 +1,4 @@
 // Time: the next event of a world, and runs.
-#include <cmath>
 #include <limits>
 
 #include "exchange.hpp"
@@ -40,67 +39,6 @@ void CombinedProbe::operator()(std::span<const BodyId> ids, double time, std::sp
 
 namespace {
 
-bool begins(const Event& event) {
-  return event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
-}
-
-/// The response of ks_bounce().
-Response bounced(const Event& event, double restitution, double resting_speed) {
-  if (!begins(event)) return {};
-  return response_of(
-      event, resting_speed > 0.0 ? settle(event, restitution, resting_speed) : bounce(event, restitution));
-}
-
-ks_response c_response(const Response& response) {
-  const auto vector = [](const std::optional<Vec3>& given) { return c_vector(given.value_or(Vec3{})); };
-  return {.struct_size = sizeof(ks_response),
-          .stop = response.stop,
-          .turns_first = response.first_velocity.has_value(),
-          .turns_second = response.second_velocity.has_value(),
-          .spins_first = response.first_angular_velocity.has_value(),
-          .spins_second = response.second_angular_velocity.has_value(),
-          .first_action = static_cast<ks_body_action>(response.first_action),
-          .second_action = static_cast<ks_body_action>(response.second_action),
-          .first_velocity = vector(response.first_velocity),
-          .second_velocity = vector(response.second_velocity),
-          .first_angular_velocity = vector(response.first_angular_velocity),
-          .second_angular_velocity = vector(response.second_angular_velocity)};
-}
-
-static_assert(KS_ACTION_SLEEP == static_cast<ks_body_action>(BodyAction::sleep));
-
-BodyAction action_of(const Event& event, BodyId body, ks_body_action action, const std::string& argument) {
-  if (KS_ACTION_NONE <= action && action <= KS_ACTION_SLEEP) return static_cast<BodyAction>(action);
-  detail::bad_result({ErrorCode::out_of_range, argument, body,
-                      "run: respond: " + argument + " at " + std::string(name_of(event.kind)) +
-                          " must be one of KS_ACTION_..., but is " + std::to_string(action)});
-}
-
-Response response_of_caller(const ks_run_definition& definition, const Event& event) {
-  const ks_event told = c_event(event);
-  ks_response chosen = c_response({});
-  require_success("respond", definition.respond(&told, &chosen, definition.respond_user));
-  require_record("ks_world_run", &chosen, "response");
-  Response response{.stop = chosen.stop != 0};
-  response.first_action = action_of(event, event.first, chosen.first_action, "first_action");
-  response.second_action = action_of(event, event.second, chosen.second_action, "second_action");
-  if (chosen.turns_first) response.first_velocity = vector_of(chosen.first_velocity);
-  if (chosen.turns_second) response.second_velocity = vector_of(chosen.second_velocity);
-  if (chosen.spins_first) response.first_angular_velocity = vector_of(chosen.first_angular_velocity);
-  if (chosen.spins_second) response.second_angular_velocity = vector_of(chosen.second_angular_velocity);
-  return response;
-}
-
-/// Throws BadResult unless a bounce can have these numbers.
-void require_bounce(std::string_view call, double restitution, double resting_speed) {
-  InputCheck(call)
-      .not_negative({"restitution"}, restitution)
-      .require(restitution <= 1.0, ErrorCode::out_of_range, {"restitution"}, "must be at most 1", restitution)
-      .not_negative({"resting_speed"}, resting_speed)
-      .result()
-      .value();
-}
-
 /// Returns workers with this number of threads, those of the last run if possible; null for one thread.
 Workers* workers_for(WorldObject& object, int threads) {
   if (threads == 1) return nullptr;
@@ -112,12 +50,9 @@ Workers* workers_for(WorldObject& object, int threads) {
 }
 
 void run(std::string_view call, WorldObject& object, double until, const ks_run_definition& definition) {
-  const bool bounces = !definition.respond && !std::isnan(definition.restitution);
-  if (bounces) require_bounce(call, definition.restitution, definition.resting_speed);
-  const auto respond = [&](const Event& event) -> Response {
-    if (definition.respond) return response_of_caller(definition, event);
-    return bounces ? bounced(event, definition.restitution, definition.resting_speed) : Response{};
-  };
+  const GameResponse chosen = response_by(call, definition.respond, definition.respond_user,
+                                          definition.restitution, definition.resting_speed);
+  const auto respond = [&](const Event& event) { return chosen ? chosen(event) : Response{}; };
   const auto sink = [&](const Event& event) {
     if (!definition.sink) return;
     const ks_event told = c_event(event);
@@ -126,11 +61,11 @@ void run(std::string_view call, WorldObject& object, double until, const ks_run_
   // Inside a callback the workers of the outer run must stay.
   require_idle(object.world());
   try {
-    object.simulation.run(until, respond, sink, workers_for(object, definition.threads)).value();
+    object.simulation().run(until, respond, sink, workers_for(object, definition.threads)).value();
   } catch (const BadResult& bad) {
     const Error& error = bad.error();
     if (error.code != ErrorCode::unknown_body || !object.world().contains(error.body) ||
-        object.simulation.find(error.body))
+        object.simulation().find(error.body))
       throw;
     detail::bad_result({ErrorCode::unknown_body, "body", error.body,
                         std::string(call) + ": no motion of the world moves " + text_of(error.body) +
@@ -150,9 +85,11 @@ int32_t ks_probe_motions(const ks_body_id*, size_t, double, ks_state*, void*) { 
 ks_status ks_world_advance(ks_world world, double until, ks_probe probe, void* user, ks_event* event) {
   return changing(__func__, world, [&, call = __func__](WorldObject& object) {
     require_record(call, event, "event");
-    const auto next = with_probe(call, object.simulation, probe, user, [&](const Probe& combined) {
-      return object.world().advance(until, combined).value();
-    });
+    const auto next = object.is_game() && probe == ks_probe_motions
+                          ? object.game().advance(until).value()
+                          : with_probe(call, object.simulation(), probe, user, [&](const Probe& combined) {
+                              return object.world().advance(until, combined).value();
+                            });
     write_next(next, object.world().time(), event);
   });
 }
@@ -166,14 +103,5 @@ ks_status ks_world_run(ks_world world, double until, const ks_run_definition* de
   return changing(__func__, world, [&, call = __func__](WorldObject& object) {
     require_record(call, definition, "definition");
     run(call, object, until, *definition);
-  });
-}
-
-ks_status ks_bounce(const ks_event* event, double restitution, double resting_speed, ks_response* response) {
-  return guarded([&, call = __func__] {
-    require_record(call, event, "event");
-    require_record(call, response, "response");
-    require_bounce(call, restitution, resting_speed);
-    *response = c_response(bounced(event_of(call, *event), restitution, resting_speed));
   });
 }

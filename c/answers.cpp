@@ -32,7 +32,7 @@ ks_status answering(std::string_view call, ks_world world, ks_probe probe, void*
   }
   return changing(call, world, [&](WorldObject& object) {
     require_pointer(call, target.pointer, target.argument);
-    tell(with_probe(call, object.simulation, probe, user,
+    tell(with_probe(call, object.simulation(), probe, user,
                     [&](const Probe& combined) { return answer(object.world(), combined).value(); }));
   });
 }

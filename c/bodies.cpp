@@ -10,17 +10,21 @@
 namespace kinesphere::c {
 namespace {
 
-/// Changes one body by a call of the world. Errors of World::change() begin with the name of `call`.
+/// Throws the error of a change of the world, if there is one. Those of World::change() begin with the name
+/// of `call`.
+void require_changed(std::string_view call, const Result<void>& changed) {
+  if (changed) return;
+  Error error = changed.error();
+  constexpr std::string_view in_cpp = "change";
+  if (error.message.starts_with(in_cpp)) error.message.replace(0, in_cpp.size(), call);
+  throw BadResult(std::move(error));
+}
+
+/// Changes one body by a call of the world.
 template <class Change>
 ks_status change_body(std::string_view call, ks_world world, ks_body_id body, const Change& change) {
-  return changing(call, world, [&](WorldObject& object) {
-    const Result<void> changed = change(object.world(), id_of(body));
-    if (changed) return;
-    Error error = changed.error();
-    constexpr std::string_view in_cpp = "change";
-    if (error.message.starts_with(in_cpp)) error.message.replace(0, in_cpp.size(), call);
-    throw BadResult(std::move(error));
-  });
+  return changing(call, world,
+                  [&](WorldObject& object) { require_changed(call, change(object.world(), id_of(body))); });
 }
 
 StaticDefinition static_of(std::string_view call, const ks_static_definition& body) {
@@ -44,19 +48,20 @@ ks_status add_bodies(std::string_view call, ks_world world, const Definition* bo
     definitions.reserve(count);
     for (std::size_t k = 0; k < count; ++k) definitions.push_back(convert(call, bodies[k]));
     if (count == 1) {
-      *ids = c_id((object.world().*add)(definitions.front()).value());
+      *ids = c_id(add(object, definitions.front()).value());
       return;
     }
-    for (const BodyId id : (object.world().*add_all)(definitions).value()) *ids++ = c_id(id);
+    for (const BodyId id : add_all(object, definitions).value()) *ids++ = c_id(id);
   });
 }
 
 /// Calls change(motion, number, time) for the motion of a body, if it has one: after the world has accepted
-/// the change.
+/// the change. A game has changed its own motion.
 template <class Change>
 void change_motion(WorldObject& object, BodyId body, const Change& change) {
-  const auto moved = object.simulation.find(body);
-  if (moved) change(object.simulation.motion(moved->motion), moved->number, object.world().time()).value();
+  if (object.is_game()) return;
+  const auto moved = object.simulation().find(body);
+  if (moved) change(object.simulation().motion(moved->motion), moved->number, object.world().time()).value();
 }
 
 void turn(WorldObject& object, BodyId body, const Vec3& velocity) {
@@ -71,7 +76,7 @@ ks_status place(std::string_view call, ks_world world, ks_body_id body, const ks
                 const Change& change) {
   return changing(call, world, [&](WorldObject& object) {
     require_pointer(call, state, "state");
-    change(object.world(), id_of(body), state_of(*state)).value();
+    object.change([&](auto& of) { return change(of, id_of(body), state_of(*state)); }).value();
     change_motion(object, id_of(body), [&](Motion& motion, std::uint32_t number, double time) {
       return motion.teleport(number, time, state_of(*state));
     });
@@ -117,13 +122,24 @@ ks_status ks_static_definition_init(ks_static_definition* definition, uint32_t s
 }
 
 ks_status ks_world_add(ks_world world, const ks_body_definition* bodies, size_t count, ks_body_id* ids) {
-  return add_bodies(__func__, world, bodies, count, ids, body_of, &World::add, &World::add_all);
+  return add_bodies(
+      __func__, world, bodies, count, ids, body_of,
+      [](WorldObject& object, const BodyDefinition& body) {
+        return object.change([&](auto& to) { return to.add(body); });
+      },
+      [](WorldObject& object, const std::vector<BodyDefinition>& all) {
+        return object.change([&](auto& to) { return to.add_all(all); });
+      });
 }
 
 ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies, size_t count,
                               ks_body_id* ids) {
-  return add_bodies(__func__, world, bodies, count, ids, static_of, &World::add_static,
-                    &World::add_static_all);
+  return add_bodies(
+      __func__, world, bodies, count, ids, static_of,
+      [](WorldObject& object, const StaticDefinition& body) { return object.world().add_static(body); },
+      [](WorldObject& object, const std::vector<StaticDefinition>& all) {
+        return object.world().add_static_all(all);
+      });
 }
 
 ks_status ks_mesh_create(const ks_vec3* vertices, size_t vertex_count, const uint32_t* corners,
@@ -155,7 +171,8 @@ ks_status ks_world_add_moving_shape(ks_world world, const ks_body_definition* bo
     require_record(call, body, "body");
     require_pointer(call, shape, "shape");
     require_pointer(call, id, "id");
-    *id = c_id(object.world().add_moving_shape({body_of(call, *body), shape_of(call, *shape)}).value());
+    const MovingShape moving{body_of(call, *body), shape_of(call, *shape)};
+    *id = c_id(object.change([&](auto& to) { return to.add_moving_shape(moving); }).value());
   });
 }
 
@@ -179,14 +196,13 @@ ks_status ks_world_add_rigid_body(ks_world world, const ks_body_definition* body
     require_record(call, body, "body");
     require_record(call, rigid, "rigid");
     require_pointer(call, id, "id");
-    *id = c_id(object.world()
-                   .add_rigid_body({.body = body_of(call, *body),
-                                    .parts = parts_of(call, *rigid),
-                                    .rotation = rotation_of(rigid->rotation),
-                                    .angular_acceleration_limit = rigid->angular_acceleration_limit,
-                                    .largest_angular_speed = rigid->largest_angular_speed,
-                                    .inertia = vector_of(rigid->inertia)})
-                   .value());
+    const RigidBody turning{.body = body_of(call, *body),
+                            .parts = parts_of(call, *rigid),
+                            .rotation = rotation_of(rigid->rotation),
+                            .angular_acceleration_limit = rigid->angular_acceleration_limit,
+                            .largest_angular_speed = rigid->largest_angular_speed,
+                            .inertia = vector_of(rigid->inertia)};
+    *id = c_id(object.change([&](auto& to) { return to.add_rigid_body(turning); }).value());
   });
 }
 
@@ -205,8 +221,9 @@ ks_status ks_world_reserve(ks_world world, size_t bodies) {
 ks_status ks_world_remove(ks_world world, const ks_body_id* bodies, size_t count) {
   return changing(__func__, world, [&, call = __func__](WorldObject& object) {
     require_array(call, bodies, count, "bodies");
-    Simulation& simulation = object.simulation;
     const std::span ids = ids_of(bodies, count);
+    if (object.is_game()) return object.game().remove(ids).value();
+    Simulation& simulation = object.simulation();
     const bool moved =
         std::any_of(ids.begin(), ids.end(), [&](BodyId body) { return simulation.find(body).has_value(); });
     if (!moved) return simulation.world().remove(ids).value();
@@ -218,7 +235,7 @@ ks_status ks_world_remove(ks_world world, const ks_body_id* bodies, size_t count
 
 ks_status ks_world_set_velocity(ks_world world, ks_body_id body, ks_vec3 velocity) {
   return changing(__func__, world, [&](WorldObject& object) {
-    object.world().set_velocity(id_of(body), vector_of(velocity)).value();
+    object.change([&](auto& of) { return of.set_velocity(id_of(body), vector_of(velocity)); }).value();
     turn(object, id_of(body), vector_of(velocity));
   });
 }
@@ -230,7 +247,7 @@ ks_status ks_world_set_velocities(ks_world world, const ks_body_id* bodies, cons
     require_array(call, velocities, count, "velocities");
     const std::span ids = ids_of(bodies, count);
     const std::span given = vectors_of(velocities, count);
-    object.world().set_velocities(ids, given).value();
+    object.change([&](auto& of) { return of.set_velocities(ids, given); }).value();
     for (std::size_t k = 0; k < count; ++k) turn(object, ids[k], given[k]);
   });
 }
@@ -262,7 +279,7 @@ ks_status ks_world_set_rotation_probe(ks_world world, ks_rotation_probe probe, v
 
 ks_status ks_world_teleport(ks_world world, ks_body_id body, const ks_state* state) {
   return place(__func__, world, body, state,
-               [](World& of, BodyId id, const State& to) { return of.teleport(id, to); });
+               [](auto& of, BodyId id, const State& to) { return of.teleport(id, to); });
 }
 
 ks_status ks_world_set_radius(ks_world world, ks_body_id body, double radius) {
@@ -281,11 +298,12 @@ ks_status ks_world_set_mass(ks_world world, ks_body_id body, double mass) {
 }
 
 ks_status ks_world_set_motion_limits(ks_world world, ks_body_id body, const ks_motion_limits* limits) {
-  return change_body(__func__, world, body, [&, call = __func__](World& of, BodyId id) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
     require_pointer(call, limits, "limits");
+    (void)object.simulation();
     MotionLimits promised;
     fields::each_motion_limits_field(convert_fields, *limits, promised);
-    return of.change(id, {.motion_limits = promised});
+    require_changed(call, object.world().change(id_of(body), {.motion_limits = promised}));
   });
 }
 
@@ -297,16 +315,20 @@ ks_status ks_world_set_shape(ks_world world, ks_body_id body, const ks_shape* sh
 }
 
 ks_status ks_world_disable(ks_world world, ks_body_id body) {
-  return change_body(__func__, world, body, [](World& of, BodyId id) { return of.disable(id); });
+  return changing(__func__, world, [&](WorldObject& object) {
+    object.change([&](auto& of) { return of.disable(id_of(body)); }).value();
+  });
 }
 
 ks_status ks_world_enable(ks_world world, ks_body_id body, const ks_state* state) {
   return place(__func__, world, body, state,
-               [](World& of, BodyId id, const State& at) { return of.enable(id, at); });
+               [](auto& of, BodyId id, const State& at) { return of.enable(id, at); });
 }
 
 ks_status ks_world_sleep(ks_world world, ks_body_id body) {
-  return change_body(__func__, world, body, [](World& of, BodyId id) { return of.sleep(id); });
+  return changing(__func__, world, [&](WorldObject& object) {
+    object.change([&](auto& of) { return of.sleep(id_of(body)); }).value();
+  });
 }
 
 ks_status ks_world_wake(ks_world world, ks_body_id body) {

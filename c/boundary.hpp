@@ -68,6 +68,8 @@ inline constexpr std::size_t first_size<ks_event> = offsetof(ks_event, accelerat
 template <>
 inline constexpr std::size_t first_size<ks_world_definition> = offsetof(ks_world_definition,
                                                                         adopt_observed_limits);
+template <>
+inline constexpr std::size_t first_size<ks_response> = offsetof(ks_response, turned_back);
 /// Throws a Failure unless `size` is one that this library knows of the record.
 template <class Record>
 void require_size_of(std::string_view call, std::uint32_t size, const char* argument) {

@@ -95,7 +95,7 @@ Event event_of(std::string_view call, const ks_event& given) {
   // Shorter in programs that were compiled earlier.
   if (given.struct_size != sizeof given)
     return event_of(call, read_record(given, {.struct_size = sizeof given}));
-  require_number(call, "event.kind", given.kind, KS_EVENT_BOUND_VIOLATION, KS_EVENT_WOKE);
+  require_number(call, "event.kind", given.kind, KS_EVENT_BOUND_VIOLATION, KS_EVENT_TIMER);
   require_number(call, "event.wall", given.wall, KS_WALL_NONE, KS_WALL_Z_UPPER);
   require_number(call, "event.senses", given.senses, 0, KS_SENSES_FIRST | KS_SENSES_SECOND);
   return fields::make_event<Event>(given, converted);

@@ -11,6 +11,7 @@
 #include "boundary.hpp"
 #include "convert.hpp"
 #include "kinesphere/certificates.hpp"
+#include "kinesphere/game_world.hpp"
 #include "kinesphere/response.hpp"
 #include "kinesphere/shape.hpp"
 
@@ -32,6 +33,9 @@ inline std::span<const Vec3> vectors_of(const ks_vec3* vectors, std::size_t coun
 inline const ks_body_id* c_ids(std::span<const BodyId> ids) {
   return reinterpret_cast<const ks_body_id*>(ids.data());
 }
+inline const ks_vec3* c_vectors(std::span<const Vec3> vectors) {
+  return reinterpret_cast<const ks_vec3*>(vectors.data());
+}
 inline ks_rotation* c_rotations(std::span<Rotation> rotations) {
   return reinterpret_cast<ks_rotation*>(rotations.data());
 }
@@ -52,11 +56,18 @@ BodyDefinition body_of(std::string_view call, const ks_body_definition& body);
 ks_body_definition c_body(const BodyDefinition& body);
 ErrorBound bound_of(std::string_view call, const ks_error_bound& bound);
 
+WorldDefinition world_of(std::string_view call, const ks_world_definition& caller);
+
 ks_event c_event(const Event& event);
 /// Writes what an advance returned, with the world at `time`.
 void write_next(const std::optional<Event>& next, double time, ks_event* event);
 /// Throws BadResult unless the event is one that c_event() can have made.
 Event event_of(std::string_view call, const ks_event& given);
+
+/// Returns the response by `respond`, or, if it is null, by bounces; none if the restitution is NaN. Throws
+/// BadResult unless a bounce can have these numbers.
+GameResponse response_by(std::string_view call, ks_respond respond, void* user, double restitution,
+                         double resting_speed);
 
 /// Throws BadResult if an array or a hull is missing.
 std::vector<RigidPart> parts_of(std::string_view call, const ks_rigid_definition& rigid);

@@ -66,7 +66,7 @@ TrackReport report_of(std::string_view call, const ks_track_report& given) {
   return report;
 }
 
-ks_monitor_event c_event(const MonitorEvent& event) {
+ks_monitor_event c_monitor_event(const MonitorEvent& event) {
   ks_monitor_event record{.struct_size = sizeof record};
   fields::each_monitor_event_field(convert_fields, event, record);
   return record;
@@ -197,7 +197,7 @@ ks_status ks_monitor_advance(ks_monitor monitor, double until, ks_poll poll, voi
   return changing(__func__, monitor, [&, call = __func__](MonitorObject& object) {
     require_record(call, event, "event");
     const auto next = advance(call, object.monitor, until, poll, user);
-    *event = c_event(next.value_or(MonitorEvent{.time = object.monitor.time()}));
+    *event = c_monitor_event(next.value_or(MonitorEvent{.time = object.monitor.time()}));
     if (!next) event->kind = KS_MONITOR_NONE;
   });
 }

@@ -133,8 +133,8 @@ AddedMotion add_motion(std::string_view call, WorldObject& object, const ks_moti
       .value();
   const Properties properties = properties_of(call, definition);
   require_idle(object.world());
-  const MotionId<> motion = add(call, object.simulation, definition);
-  auto bodies = object.simulation.add_all(motion, properties.radii, properties.like).value();
+  const MotionId<> motion = add(call, object.simulation(), definition);
+  auto bodies = object.simulation().add_all(motion, properties.radii, properties.like).value();
   for (std::size_t k = 0; k < bodies.size(); ++k)
     object.world().change(bodies[k], {.mass = properties.masses[k]}).value();
   return {motion, std::move(bodies)};
@@ -167,11 +167,11 @@ std::vector<BodyId> add_to_motion(std::string_view call, WorldObject& object, Mo
                                   const ks_motion_definition& definition) {
   Properties properties = properties_of(call, definition);
   require_idle(object.world());
-  JoiningBodies bodies(object.simulation, motion);
+  JoiningBodies bodies(object.simulation(), motion);
   for (std::size_t k = 0; k < definition.count; ++k) {
     properties.like.radius = properties.radii[k];
     properties.like.mass = properties.masses[k];
-    bodies.join(add_one(call, object.simulation.motion(motion), definition, k, object.world().time()),
+    bodies.join(add_one(call, object.simulation().motion(motion), definition, k, object.world().time()),
                 properties.like);
   }
   return bodies.keep();
@@ -180,8 +180,8 @@ std::vector<BodyId> add_to_motion(std::string_view call, WorldObject& object, Mo
 void push_frame(std::string_view call, WorldObject& object, std::uint32_t motion, const ks_vec3* positions,
                 std::size_t count, std::optional<double> time) {
   require_array(call, positions, count, "positions");
-  (void)frame_motion(call, object.simulation, motion);
-  object.simulation.push({motion}, vectors_of(positions, count), time).value();
+  (void)frame_motion(call, object.simulation(), motion);
+  object.simulation().push({motion}, vectors_of(positions, count), time).value();
 }
 
 }  // namespace
@@ -216,7 +216,7 @@ ks_status ks_world_add_to_motion(ks_world world, uint32_t motion, const ks_motio
     require_array(call, ids, definition->count, "ids");
     for (const BodyId id : add_to_motion(call, object, {motion}, *definition)) {
       *ids++ = c_id(id);
-      if (numbers != nullptr) *numbers++ = object.simulation.find(id)->number;
+      if (numbers != nullptr) *numbers++ = object.simulation().find(id)->number;
     }
   });
 }
@@ -226,9 +226,9 @@ ks_status ks_world_steer(ks_world world, ks_body_id body, ks_vec3 acceleration) 
     const BodyId id = id_of(body);
     (void)object.world().body(id).value();
     require_idle(object.world());
-    const auto moved = object.simulation.find(id);
+    const auto moved = object.simulation().find(id);
     auto* const motion =
-        moved ? dynamic_cast<SteeredMotion*>(&object.simulation.motion(moved->motion)) : nullptr;
+        moved ? dynamic_cast<SteeredMotion*>(&object.simulation().motion(moved->motion)) : nullptr;
     if (motion == nullptr) {
       detail::bad_result(
           {ErrorCode::unsupported, "body", id,
@@ -254,7 +254,7 @@ ks_status ks_world_push_frame_at(ks_world world, uint32_t motion, const ks_vec3*
 ks_status ks_world_latest_frame(ks_world world, uint32_t motion, ks_vec3* positions, size_t capacity,
                                 size_t* count) {
   return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
-    write_all(call, frame_motion(call, object.simulation, motion).latest(), positions, capacity, count,
+    write_all(call, frame_motion(call, object.simulation(), motion).latest(), positions, capacity, count,
               c_vector);
   });
 }
@@ -262,7 +262,7 @@ ks_status ks_world_latest_frame(ks_world world, uint32_t motion, ks_vec3* positi
 ks_status ks_world_latest_frame_time(ks_world world, uint32_t motion, double* time) {
   return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
     require_pointer(call, time, "time");
-    *time = frame_motion(call, object.simulation, motion).latest_time();
+    *time = frame_motion(call, object.simulation(), motion).latest_time();
   });
 }
 
@@ -272,7 +272,7 @@ ks_status ks_world_states(ks_world world, const ks_body_id* bodies, size_t count
     require_array(call, bodies, count, "bodies");
     require_array(call, states, count, "states");
     std::vector<State> found;
-    for (const BodyId id : ids_of(bodies, count)) found.push_back(object.simulation.state(id, time));
+    for (const BodyId id : ids_of(bodies, count)) found.push_back(object.simulation().state(id, time));
     for (const State& state : found) *states++ = c_state(state);
   });
 }

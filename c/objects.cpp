@@ -39,6 +39,21 @@ bool Usage::begin_destroying() {
   return true;
 }
 
+const GameWorld& WorldObject::game() const {
+  if (!is_game())
+    detail::bad_result({ErrorCode::unsupported, "game", no_body,
+                        "game: this world is no game: ks_game_create() and ks_game_restore() make games"});
+  return std::get<GameWorld>(owner);
+}
+
+const Simulation& WorldObject::simulation() const {
+  if (is_game())
+    detail::bad_result({ErrorCode::unsupported, "world", no_body,
+                        "world: a game moves its bodies itself: it takes no motions and no probes, and time "
+                        "passes by ks_game_step() or by ks_world_advance() with ks_probe_motions"});
+  return std::get<Simulation>(owner);
+}
+
 HandleTable<WorldObject>& table_of(ks_world) {
   static auto* const table = new HandleTable<WorldObject>(1);
   return *table;
@@ -56,6 +71,11 @@ HandleTable<ReplayObject>& table_of(ks_replay) {
 
 HandleTable<MeshObject>& table_of(ks_mesh) {
   static auto* const table = new HandleTable<MeshObject>(4);
+  return *table;
+}
+
+HandleTable<StepPotentialObject>& table_of(ks_step_potential) {
+  static auto* const table = new HandleTable<StepPotentialObject>(5);
   return *table;
 }
 

@@ -7,29 +7,48 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "boundary.hpp"
 #include "handle_table.hpp"
+#include "kinesphere/game_world.hpp"
 #include "kinesphere/monitor/monitor.hpp"
 #include "kinesphere/recording.hpp"
 #include "kinesphere/simulation.hpp"
+#include "kinesphere/step_potential.hpp"
 #include "kinesphere/workers.hpp"
 #include "number/scope_guard.hpp"
 
 namespace kinesphere::c {
 
-/// A world with the motions that the library has of its bodies.
+/// A world with the motions that the library has of its bodies, or a game.
 struct WorldObject {
-  explicit WorldObject(Simulation of) : simulation(std::move(of)) {}
+  explicit WorldObject(Simulation of) : owner(std::move(of)) {}
+  explicit WorldObject(GameWorld of) : owner(std::move(of)) {}
 
-  Simulation simulation;
+  std::variant<Simulation, GameWorld> owner;
   std::optional<Workers> workers{};                   ///< of the last run with several threads
   std::optional<std::vector<std::byte>> recording{};  ///< the last one that has been stopped
+  std::vector<ks_event> events{};                     ///< of the last step of a game
   Usage usage{};
 
-  World& world() { return simulation.world(); }
-  const World& world() const { return simulation.world(); }
+  bool is_game() const { return std::holds_alternative<GameWorld>(owner); }
+  /// Throw BadResult with unsupported for the calls that the other kind has.
+  GameWorld& game() { return const_cast<GameWorld&>(std::as_const(*this).game()); }
+  const GameWorld& game() const;
+  Simulation& simulation() { return const_cast<Simulation&>(std::as_const(*this).simulation()); }
+  const Simulation& simulation() const;
+
+  World& world() { return const_cast<World&>(std::as_const(*this).world()); }
+  const World& world() const {
+    return std::visit([](const auto& of) -> const World& { return of.world(); }, owner);
+  }
+  /// Calls change(game) for a game, and change(world) for any other world: for calls that both have.
+  template <class Change>
+  auto change(const Change& change) {
+    return is_game() ? change(game()) : change(world());
+  }
 };
 
 struct MonitorObject {
@@ -53,6 +72,13 @@ struct MeshObject {
   Usage usage{};
 };
 
+struct StepPotentialObject {
+  explicit StepPotentialObject(StepPotential of) : potential(std::move(of)) {}
+
+  StepPotential potential;
+  Usage usage{};
+};
+
 /// Throws BadResult inside callbacks of the world: for changes that do not begin with a call of the world.
 inline void require_idle(World& world) { world.reserve(0).value(); }
 
@@ -61,6 +87,7 @@ HandleTable<WorldObject>& table_of(ks_world);
 HandleTable<MonitorObject>& table_of(ks_monitor);
 HandleTable<ReplayObject>& table_of(ks_replay);
 HandleTable<MeshObject>& table_of(ks_mesh);
+HandleTable<StepPotentialObject>& table_of(ks_step_potential);
 
 [[noreturn]] void refuse_handle(std::string_view call, HandleState state);
 [[noreturn]] void refuse_use(std::string_view call);

@@ -20,6 +20,20 @@ ks_world_definition c_world(const WorldDefinition& definition) {
   return record;
 }
 
+ks_body_view c_view(const BodyView& view) {
+  return {.struct_size = sizeof(ks_body_view),
+          .enabled = view.enabled,
+          .is_static = view.is_static,
+          .sleeping = view.sleeping,
+          .report_time = view.bound.time,
+          .box = c_box(view.box),
+          .box_end = view.box_end,
+          .image = {view.image[0], view.image[1], view.image[2]},
+          .definition = c_body(view.definition)};
+}
+
+}  // namespace
+
 WorldDefinition world_of(std::string_view call, const ks_world_definition& caller) {
   const ks_world_definition given = read_record(caller, c_world({}));
   require_number(call, "contacts", given.contacts, KS_CONTACTS_IMPACTS, KS_CONTACTS_ALL);
@@ -37,19 +51,6 @@ WorldDefinition world_of(std::string_view call, const ks_world_definition& calle
   return definition;
 }
 
-ks_body_view c_view(const BodyView& view) {
-  return {.struct_size = sizeof(ks_body_view),
-          .enabled = view.enabled,
-          .is_static = view.is_static,
-          .sleeping = view.sleeping,
-          .report_time = view.bound.time,
-          .box = c_box(view.box),
-          .box_end = view.box_end,
-          .image = {view.image[0], view.image[1], view.image[2]},
-          .definition = c_body(view.definition)};
-}
-
-}  // namespace
 }  // namespace kinesphere::c
 
 using namespace kinesphere;
@@ -70,14 +71,15 @@ ks_status ks_world_destroy(ks_world world) { return destroy(__func__, world); }
 
 ks_status ks_world_clone(ks_world world, ks_world* copy) {
   return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
-    create<WorldObject>(call, copy, object.simulation.clone().value());
+    std::visit([&](const auto& owner) { create<WorldObject>(call, copy, owner.clone().value()); },
+               object.owner);
   });
 }
 
 ks_status ks_world_save(ks_world world, void* bytes, size_t capacity, size_t* count) {
   return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
-    write_all(call, object.world().save().value(), static_cast<std::byte*>(bytes), capacity, count,
-              std::identity());
+    const auto snapshot = object.is_game() ? object.game().save() : object.world().save();
+    write_all(call, snapshot.value(), static_cast<std::byte*>(bytes), capacity, count, std::identity());
   });
 }
 

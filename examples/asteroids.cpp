@@ -67,7 +67,9 @@ int main() {
       if (game.index_of(flying.front())) game.remove(flying.front()).value();
       flying.pop_front();
     }
-    for (const Event& event : game.step_through(dt)) {
+    const double end = game.time() + dt;
+    while (const auto next = game.advance(end).value()) {
+      const Event& event = *next;
       if (event.kind != EventKind::contact_begin) continue;
       if (event.first_user_data == ship || event.second_user_data == ship) ++bumps;
       if (respond(event).first_action != BodyAction::remove) continue;

@@ -40,7 +40,9 @@ int main() {
     // The player: the paddle runs below the ball, a little late.
     const double way = game.state(ball).position.x - game.state(paddle).position.x;
     game.set_velocity(paddle, {std::clamp(10 * way, -18.0, 18.0), 0, 0}).value();
-    for (const Event& event : game.step_through(dt)) {
+    const double end = game.time() + dt;
+    while (const auto next = game.advance(end).value()) {
+      const Event& event = *next;
       const auto is = [&](Kind kind) {
         return event.first_user_data == kind || event.second_user_data == kind;
       };

@@ -268,8 +268,9 @@ typedef struct ks_world {
 /// Which contact events bodies ask for (kinesphere/contact_events.hpp).
 typedef int32_t ks_contacts;
 enum {
-  KS_CONTACTS_OF_WORLD = 0,       ///< of a body: what its world says
-  KS_CONTACTS_IMPACTS = 1,        ///< A begin whenever two touch and approach, and no ends.
+  KS_CONTACTS_OF_WORLD = 0,  ///< of a body: what its world says
+  /// A begin whenever two touch and approach, or are put into each other, and no ends.
+  KS_CONTACTS_IMPACTS = 1,
   KS_CONTACTS_BEGIN_AND_END = 2,  ///< One begin and one end for each contact.
   KS_CONTACTS_ALL = 3             ///< Begins, ends, and each further approach in between.
 };
@@ -279,7 +280,8 @@ typedef uint32_t ks_axes;
 enum { KS_AXIS_X = 1, KS_AXIS_Y = 2, KS_AXIS_Z = 4 };
 
 /// Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other,
-/// unless both are in one group, which decides by its sign (kinesphere/filter.hpp).
+/// unless both are in one group, which decides by its sign (kinesphere/filter.hpp). A body without a filter
+/// of its own, as a floor, has the category 1: a mask without that bit lets its body fall through the floor.
 typedef struct ks_filter {
   uint64_t category;  ///< default 1
   uint64_t mask;      ///< default UINT64_MAX
@@ -741,6 +743,11 @@ typedef struct ks_response {
   ks_vec3 second_velocity;
   ks_vec3 first_angular_velocity;
   ks_vec3 second_angular_velocity;
+  /// Of sensors: the two have been turned back at the sensor distance (ks_world_turn_back).
+  ks_bool turned_back;
+  ks_bool sets_pair_state;  ///< the two get this state (ks_world_set_pair_state)
+  int32_t pair_state;
+  int32_t reserved;  ///< 0
 } ks_response;
 static inline ks_response ks_new_response(void) {
   ks_response response;
@@ -756,6 +763,63 @@ static inline ks_response ks_new_response(void) {
 /// actions and `stop` afterwards.
 KS_API ks_status ks_bounce(const ks_event* event, double restitution, double resting_speed,
                            ks_response* response);
+
+/// How rough spheres or discs bounce: Walton's model (Roughness in kinesphere/response.hpp).
+typedef struct ks_roughness {
+  uint32_t struct_size;
+  int32_t reserved;    ///< 0
+  double restitution;  ///< in [0, 1], default 1: along the normal
+  /// in [-1, 1], default 1: what is left of the tangential velocity of the surfaces in a contact that sticks,
+  /// turned back; -1 is smooth
+  double tangential_restitution;
+  double friction;  ///< >= 0, default INFINITY: coefficient beyond which a contact slides
+  double inertia;   ///< > 0, default 0.4: moment of inertia in units of mass and squared radius
+} ks_roughness;
+KS_API ks_status ks_roughness_init(ks_roughness* roughness, uint32_t struct_size);
+static inline ks_roughness ks_default_roughness(void) {
+  ks_roughness roughness;
+  ks_roughness_init(&roughness, (uint32_t)sizeof roughness);
+  return roughness;
+}
+/// As ks_bounce(), for balls that turn: rigid bodies of one part, a ball around the position.
+KS_API ks_status ks_bounce_rough(const ks_event* event, const ks_roughness* roughness, ks_response* response);
+
+/// A potential of steps between pairs of bodies, as a response to events (kinesphere/step_potential.hpp):
+/// square wells, Lennard-Jones potentials in steps, bonds. A handle of zero never names one.
+typedef struct ks_step_potential {
+  uint64_t value;
+} ks_step_potential;
+
+/// The energy of a pair, as a function of its gap. Fields and ranges: kinesphere/step_potential.hpp.
+typedef struct ks_step_potential_definition {
+  uint32_t struct_size;
+  int32_t reserved;         ///< 0
+  size_t count;             ///< number of distances
+  const double* distances;  ///< `count` gaps between two surfaces, ascending (length)
+  const double* energies;   ///< `count` energies of pairs that are nearer, but not than the distance before
+  double outside;           ///< energy beyond the last distance; infinity for a bond
+  double restitution;       ///< of contacts, in [0, 1], default 1
+} ks_step_potential_definition;
+KS_API ks_status ks_step_potential_definition_init(ks_step_potential_definition* definition,
+                                                   uint32_t struct_size);
+static inline ks_step_potential_definition ks_default_step_potential_definition(void) {
+  ks_step_potential_definition definition;
+  ks_step_potential_definition_init(&definition, (uint32_t)sizeof definition);
+  return definition;
+}
+/// Creates a potential for worlds with the definition of this one, whose bodies need a sensor with its
+/// distances (ks_world_set_sensor); the arrays are copied. Errors: those of StepPotential::create().
+KS_API KS_MUST_CHECK ks_status ks_step_potential_create(ks_world world,
+                                                        const ks_step_potential_definition* definition,
+                                                        ks_step_potential* potential);
+KS_API ks_status ks_step_potential_destroy(ks_step_potential potential);
+/// Writes the response to an event, for a ks_respond or a loop: at a step of the potential the two gain or
+/// lose what their energy changes by, or are turned back; at a contact they bounce. Overwrites the whole
+/// response.
+KS_API ks_status ks_step_potential_respond(ks_step_potential potential, const ks_event* event,
+                                           ks_response* response);
+/// The potential energy of a pair with this gap (length).
+KS_API ks_status ks_step_potential_energy(ks_step_potential potential, double gap, double* energy);
 
 /// Hash of a set of events (kinesphere/event_hash.hpp); all zeros at first. Equal values mean bit-identical
 /// runs.
@@ -841,6 +905,74 @@ static inline ks_run_definition ks_default_run_definition(void) {
 /// wrong response is its field; KS_ERROR_CALLBACK_FAILED.
 KS_API KS_MUST_CHECK ks_status ks_world_run(ks_world world, double until,
                                             const ks_run_definition* definition);
+
+// Games: worlds that move their own bodies (kinesphere/game_world.hpp). The calls of worlds do with a game
+// what they do with others: a game is asked for no states, and takes no motions, runs and motion limits
+// (KS_ERROR_UNSUPPORTED).
+
+/// What a game has beside its world.
+typedef struct ks_game_definition {
+  uint32_t struct_size;
+  int32_t reserved;    ///< 0
+  ks_vec3 gravity;     ///< Acceleration of all bodies, beside planned_acceleration of each.
+  double restitution;  ///< in [0, 1], default 1: bodies bounce as by ks_bounce(); NaN: they pass through each
+                       ///< other
+  double resting_speed;  ///< as for ks_bounce()
+  /// If not NULL, it answers events instead, for the game and its clones; `stop` has no effect.
+  ks_respond respond;
+  void* respond_user;
+} ks_game_definition;
+KS_API ks_status ks_game_definition_init(ks_game_definition* definition, uint32_t struct_size);
+static inline ks_game_definition ks_default_game_definition(void) {
+  ks_game_definition definition;
+  ks_game_definition_init(&definition, (uint32_t)sizeof definition);
+  return definition;
+}
+
+/// Events of a step, in order.
+typedef struct ks_event_list {
+  size_t count;
+  const ks_event* events;
+} ks_event_list;
+
+/// The bodies of a game that can move, disabled ones too, in dense arrays: the last body takes the place of a
+/// removed one.
+typedef struct ks_body_list {
+  size_t count;
+  const ks_body_id* ids;
+  const ks_vec3* positions;
+  const ks_vec3* velocities;
+} ks_body_list;
+
+/// Creates a game without bodies. Its handle is that of a world: ks_world_add(), ks_world_remove(),
+/// ks_world_set_velocity() and the like change its bodies, ks_world_advance() with ks_probe_motions goes to
+/// the next event, and ks_world_destroy() destroys it. Errors: as GameWorld::create().
+KS_API KS_MUST_CHECK ks_status ks_game_create(const ks_world_definition* world,
+                                              const ks_game_definition* definition, ks_world* game);
+/// Creates the game of a snapshot that ks_world_save() made of a game; it continues bit for bit. Of the
+/// definition the gravity does not count. `filter`: as for ks_world_restore(). Errors: KS_ERROR_BAD_SNAPSHOT.
+KS_API KS_MUST_CHECK ks_status ks_game_restore(const void* bytes, size_t count,
+                                               const ks_game_definition* definition, ks_pair_filter filter,
+                                               void* user, ks_world* game);
+/// Advances a game by dt > 0, answers all events by its response, and tells them. They are valid until the
+/// next step or ks_world_destroy(). Errors: as GameWorld::step(); KS_ERROR_CALLBACK_FAILED. After one the
+/// next step goes on from where the game stands, and tells the events of this step, too.
+KS_API KS_MUST_CHECK ks_status ks_game_step(ks_world game, double dt, ks_event_list* happened);
+/// Tells where the bodies of a game are now. On periodic axes positions lie in the box. The arrays are valid
+/// until the next call that advances or changes the game. Cost: O(1) after a step.
+KS_API ks_status ks_game_bodies(ks_world game, ks_body_list* found);
+/// The place of a body in these arrays. Errors: as ks_world_body(); KS_ERROR_STATIC_BODY.
+KS_API ks_status ks_game_index_of(ks_world game, ks_body_id body, size_t* index);
+/// Replaces the response of a game by that of the definition, whose gravity does not count.
+KS_API ks_status ks_game_set_response(ks_world game, const ks_game_definition* definition);
+/// Sets the velocities of all bodies of a game, in the order of its arrays, or, on an error, of none. A body
+/// that has its velocity already goes on undisturbed. Errors: as GameWorld::set_velocities().
+KS_API ks_status ks_game_set_velocities(ks_world game, const ks_vec3* velocities, size_t count);
+/// Sets the acceleration of a body of a game beside the gravity (length / time^2).
+KS_API ks_status ks_game_set_acceleration(ks_world game, ks_body_id body, ks_vec3 acceleration);
+/// Sets the gravity of a game; wakes all that sleep.
+KS_API ks_status ks_game_set_gravity(ks_world game, ks_vec3 gravity);
+KS_API ks_status ks_game_gravity(ks_world game, ks_vec3* gravity);
 
 // Ready-made motions, owned by the world (kinesphere/motion/).
 

@@ -19,6 +19,10 @@ hidden = {
     "ks_box": "Box",
     "ks_rigid_hull": "Hull",
     "ks_run_definition": "RunDefinition",
+    "ks_game_definition": "GameDefinition",
+    "ks_step_potential_definition": "StepPotentialDefinition",
+    "ks_event_list": "EventList",
+    "ks_body_list": "BodyList",
     "ks_motion_definition": "MotionDefinition",
     "ks_separation_rule": "SeparationRule",
     "ks_monitor_definition": "MonitorDefinition",
@@ -29,6 +33,7 @@ opaque = {"ks_shape", "ks_error_bound", "ks_event_hash", "ks_response"}
 # Records that callers fill.
 given = {
     "ks_world_definition",
+    "ks_roughness",
     "ks_body_definition",
     "ks_static_definition",
     "ks_rigid_definition",

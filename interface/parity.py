@@ -46,6 +46,14 @@ names = {
     "ks_probe_reason_advice": ("advice_on", "advice", "advice"),
     "ks_event_hash_add": ("add", "add", "add"),
     "ks_event_hash_value": ("value", "value", "value"),
+    "ks_bounce_rough": ("bounce", "Roughness", "bounce"),
+    "ks_step_potential_create": ("StepPotential::create", "StepPotential", "StepPotential"),
+    "ks_step_potential_respond": ("respond", "StepPotential", "respond"),
+    "ks_step_potential_energy": ("energy", "energy", "energy"),
+    "ks_game_create": ("GameWorld::create", "GameWorld", "GameWorld"),
+    "ks_game_restore": ("GameWorld::restore", "GameWorld.restore", "GameWorld.restore"),
+    "ks_game_bodies": ("ids, positions, velocities",) * 3,
+    "ks_game_set_response": ("set_response", "respond", "setRespond"),
     "ks_world_add_motion": ("add_motion", "add_motion", "addMotion"),
     "ks_world_add_to_motion": ("BodyMap::add", "BodyMap.add", "BodyMap.add"),
     "ks_world_push_frame": ("push", "push", "push"),
@@ -72,6 +80,15 @@ wrappers = {
     ("ks_mesh_create", "C#"): "Mesh",
     ("ks_world_create", "Rust"): "World::new",
     ("ks_world_create", "C#"): "World",
+    ("ks_step_potential_create", "Rust"): "StepPotential::new",
+    ("ks_step_potential_create", "C#"): "StepPotential",
+    ("ks_world_clone", "C#"): "Clone",
+    ("ks_game_create", "Rust"): "GameWorld::new",
+    ("ks_game_create", "C#"): "GameWorld",
+    ("ks_game_restore", "Rust"): "GameWorld::restore",
+    ("ks_game_restore", "C#"): "GameWorld.Restore",
+    ("ks_game_bodies", "Rust"): "ids, positions, velocities",
+    ("ks_game_bodies", "C#"): "Ids, Positions, Velocities",
     ("ks_replay_open", "C#"): "Replay",
     ("ks_monitor_create", "Rust"): "Monitor::new",
     ("ks_monitor_create", "C#"): "Monitor",
@@ -246,7 +263,7 @@ def wrapper(function: Function, language: str) -> str | None:
 
 
 def usual_name(function: Function) -> str:
-    return re.sub(r"^ks_(world_|monitor_(?!event)|replay_|probe_)?", "", function.name)
+    return re.sub(r"^ks_(world_|game_|monitor_(?!event)|replay_|probe_)?", "", function.name)
 
 
 def calls_of(function: Function) -> dict[str, str]:

@@ -39,6 +39,10 @@ by_hand = {
     "ks_rigid_hull",
     "ks_rigid_definition",
     "ks_run_definition",
+    "ks_game_definition",
+    "ks_step_potential_definition",
+    "ks_event_list",
+    "ks_body_list",
     "ks_motion_definition",
     "ks_response",
     "ks_event_hash",
@@ -47,6 +51,7 @@ by_hand = {
 # What callers give; the library gives all other records.
 given = {
     "ks_filter",
+    "ks_roughness",
     "ks_world_definition",
     "ks_body_definition",
     "ks_motion_limits",

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "exchange.hpp"
+#include "kinesphere/step_potential.hpp"
 #include "motion_of_bodies.hpp"
 #include "numbers.hpp"
 #include "simulation/run/scene_answer.hpp"
@@ -21,40 +22,21 @@ bool javascript_stop(const double* event);
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+/// Size of a response in numbers: for each of the two bodies a velocity, then for each an angular velocity,
+/// then for each an action; whether to stop, whether the two have been turned back, whether they get a state,
+/// and it.
+constexpr std::size_t response_numbers = 22;
+
+/// Writes a vector, and whether there is one.
+void put_optional(const std::optional<Vec3>& velocity, double* numbers) {
+  put(velocity.value_or(Vec3{}), numbers);
+  numbers[3] = velocity.has_value() ? 1.0 : 0.0;
+}
+
 /// Reads a vector, and whether there is one.
 std::optional<Vec3> velocity_at(const double* numbers) {
   if (numbers[3] == 0.0) return std::nullopt;
   return vector_at(numbers);
-}
-
-Response ask_javascript(const Event& event) {
-  double numbers[event_numbers];
-  put(event, numbers);
-  // For each of the two bodies a velocity, then an angular velocity, then an action; and whether to stop.
-  double response[19] = {};
-  // A function that throws leaves NaN, too.
-  if (!javascript_respond(numbers, response)) return {Vec3{nan, nan, nan}, std::nullopt};
-  return {velocity_at(response),
-          velocity_at(response + 4),
-          velocity_at(response + 8),
-          velocity_at(response + 12),
-          static_cast<BodyAction>(response[16]),
-          static_cast<BodyAction>(response[17]),
-          response[18] != 0.0};
-}
-
-/// Given masses are by index; bodies beyond them, or all if there are none, have their own.
-Response bounce_off(const Event& event, std::span<const double> masses, double restitution,
-                    double resting_speed) {
-  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
-  if (!begins || event.approach_speed <= 0.0) return {};
-  const auto mass = [&](BodyId body, double own) {
-    return body.index < masses.size() ? masses[body.index] : own;
-  };
-  const double first = mass(event.first, event.first_mass);
-  const double second = mass(event.second, event.second_mass);
-  return response_of(event, resting_speed > 0.0 ? settle(event, first, second, restitution, resting_speed)
-                                                : bounce(event, first, second, restitution));
 }
 
 /// Returns false, and stores an error, for a motion with bodies in a world that never moved any and has none
@@ -73,6 +55,43 @@ bool were_added(const World& world, const MotionHandle* handle) {
 }
 
 }  // namespace
+
+Response ask_javascript(const Event& event) {
+  double numbers[event_numbers];
+  put(event, numbers);
+  double response[response_numbers] = {};
+  // A function that throws leaves NaN, too.
+  if (!javascript_respond(numbers, response)) return {Vec3{nan, nan, nan}, std::nullopt};
+  Response answer{.first_velocity = velocity_at(response),
+                  .second_velocity = velocity_at(response + 4),
+                  .first_angular_velocity = velocity_at(response + 8),
+                  .second_angular_velocity = velocity_at(response + 12),
+                  .first_action = static_cast<BodyAction>(response[16]),
+                  .second_action = static_cast<BodyAction>(response[17]),
+                  .turned_back = response[19] != 0.0,
+                  .stop = response[18] != 0.0};
+  if (response[20] != 0.0) answer.pair_state = static_cast<std::int32_t>(response[21]);
+  return answer;
+}
+
+Response bounce_roughly(const Event& event, double restitution, const double* numbers) {
+  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+  if (!begins) return {};
+  return response_of(event, bounce(event, Roughness{restitution, numbers[0], numbers[1], numbers[2]}));
+}
+
+Response bounce_off(const Event& event, std::span<const double> masses, double restitution,
+                    double resting_speed) {
+  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+  if (!begins || event.approach_speed <= 0.0) return {};
+  const auto mass = [&](BodyId body, double own) {
+    return body.index < masses.size() ? masses[body.index] : own;
+  };
+  const double first = mass(event.first, event.first_mass);
+  const double second = mass(event.second, event.second_mass);
+  return response_of(event, resting_speed > 0.0 ? settle(event, first, second, restitution, resting_speed)
+                                                : bounce(event, first, second, restitution));
+}
 
 void ask_javascript(std::span<const BodyId> ids, double time, std::span<State> states) {
   std::vector<double> numbers;
@@ -97,14 +116,12 @@ int world_advance(World* world, double until, const MotionHandle* motion, BodyMa
   return -1;
 }
 
-/// Responses to events in world_run().
-enum class Responding : int { nothing, bounces, asks_javascript, as_in_scene };
-
-/// One of motion and map is null. All events are in answer() afterwards, also after an error.
+/// One of motion and map is null. In place of masses are the numbers of bounce_roughly(); `other` is the
+/// scene or the potential that responds. All events are in answer() afterwards, also after an error.
 KINESPHERE_EXPORT(world_run)
 bool world_run(World* world, double until, const MotionHandle* motion, BodyMapHandle* map,
                Responding responding, const double* masses, std::size_t mass_count, double restitution,
-               double resting_speed, const Scene* scene) {
+               double resting_speed, const void* other) {
   answer().clear();
   if (!were_added(*world, motion)) return false;
   // JavaScript functions may use answer() meanwhile.
@@ -119,7 +136,11 @@ bool world_run(World* world, double until, const MotionHandle* motion, BodyMapHa
       case Responding::asks_javascript:
         return ask_javascript(event);
       case Responding::as_in_scene:
-        return scene_answer(*scene, event);
+        return scene_answer(*static_cast<const Scene*>(other), event);
+      case Responding::by_potential:
+        return static_cast<const StepPotential*>(other)->respond(event);
+      case Responding::rough:
+        return bounce_roughly(event, restitution, masses);
     }
     return {};
   };
@@ -156,6 +177,40 @@ void event_bounce(const double* event, double first_mass, double second_mass, do
   put(after.second_velocity, velocities + 3);
   put(after.first_angular_velocity, velocities + 6);
   put(after.second_angular_velocity, velocities + 9);
+}
+
+/// As event_bounce(), with the masses of the event, for rough balls.
+KINESPHERE_EXPORT(event_bounce_rough)
+void event_bounce_rough(const double* event, double restitution, double tangential, double friction,
+                        double inertia, double* velocities) {
+  const Bounce after = bounce(event_at(event), Roughness{restitution, tangential, friction, inertia});
+  put(after.first_velocity, velocities);
+  put(after.second_velocity, velocities + 3);
+  put(after.first_angular_velocity, velocities + 6);
+  put(after.second_angular_velocity, velocities + 9);
+}
+
+KINESPHERE_EXPORT(potential_create)
+StepPotential* potential_create(const World* world, std::size_t count, const double* distances,
+                                const double* energies, double outside, double restitution) {
+  const auto made = StepPotential::create({.distances = {distances, distances + count},
+                                           .energies = {energies, energies + count},
+                                           .outside = outside,
+                                           .restitution = restitution},
+                                          world->definition());
+  return is_good(made) ? new StepPotential(*made) : nullptr;
+}
+KINESPHERE_EXPORT(potential_free) void potential_free(StepPotential* potential) { delete potential; }
+KINESPHERE_EXPORT(potential_energy) double potential_energy(const StepPotential* potential, double gap) {
+  return potential->energy(gap);
+}
+/// Writes the numbers of the response.
+KINESPHERE_EXPORT(potential_respond)
+void potential_respond(const StepPotential* potential, const double* event, double* numbers) {
+  const Response response = potential->respond(event_at(event));
+  put_optional(response.first_velocity, numbers);
+  put_optional(response.second_velocity, numbers + 4);
+  numbers[19] = response.turned_back ? 1.0 : 0.0;
 }
 
 }  // namespace kinesphere::browser

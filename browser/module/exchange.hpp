@@ -43,6 +43,18 @@ void answer_ids(std::span<const BodyId> ids);
 /// Returns 0 if there is no event; 1 if it is in answer(); -1 for an error.
 int answer_event(const Result<std::optional<Event>>& event);
 
+/// How events are answered in world_run() and in games.
+enum class Responding : int { nothing, bounces, asks_javascript, as_in_scene, by_potential, rough };
+/// Calls the package's function. If it throws, the response is one that the world refuses; the package
+/// rethrows the exception.
+Response ask_javascript(const Event& event);
+/// Returns the bounce at a begin. Given masses are by index; bodies beyond them, or all if there are none,
+/// have their own.
+Response bounce_off(const Event& event, std::span<const double> masses, double restitution,
+                    double resting_speed);
+/// Returns the bounce of rough balls at a begin. `numbers`: tangential restitution, friction, inertia.
+Response bounce_roughly(const Event& event, double restitution, const double* numbers);
+
 inline Vec3 vector_at(const double* numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 inline State state_at(const double* numbers) { return {vector_at(numbers), vector_at(numbers + 3)}; }
 void put(const Vec3& vector, double* numbers);

@@ -11,8 +11,10 @@
 namespace kinesphere::browser {
 namespace {
 
-/// Reads what definitionNumbers() in package/src/definition.ts writes: the fields, and the box and the filter
-/// of the walls with whether they are there.
+World* handle_of(Result<World> world) { return is_good(world) ? new World(std::move(*world)) : nullptr; }
+
+}  // namespace
+
 WorldDefinition definition_at(const double* numbers) {
   NumberReader reader(numbers);
   WorldDefinition definition;
@@ -26,10 +28,6 @@ WorldDefinition definition_at(const double* numbers) {
   if (reader.flag()) definition.wall_filter = reader.take<Filter>();
   return definition;
 }
-
-World* handle_of(Result<World> world) { return is_good(world) ? new World(std::move(*world)) : nullptr; }
-
-}  // namespace
 
 /// `numbers`: how many vertices and triangles there are, and then both.
 Result<Shape> mesh_at(const double* numbers) {
@@ -84,8 +82,7 @@ KINESPHERE_EXPORT(world_create) World* world_create(const double* definition) {
 /// Calls the package's pair filter of this number; one that throws lets the pair touch, and the package
 /// throws what it threw when the running call ends.
 KINESPHERE_IMPORT(filter) bool javascript_filter(double filter, double first, double second);
-/// Returns the pair filter of this number; a number below 0 stands for none.
-static PairFilter pair_filter_of(double filter) {
+PairFilter pair_filter_of(double filter) {
   if (filter < 0.0) return {};
   return [filter](BodyId first, BodyId second) {
     return javascript_filter(filter, number_of(first), number_of(second));

@@ -19,7 +19,7 @@ build() {
 node_tests() {
   cd browser/test
   node --test package.test.mjs answers.test.mjs body_map.test.mjs rigid_bodies.test.mjs monitor.test.mjs first_programs.test.mjs \
-    shared_scene.test.mjs consumer.test.mjs
+    shared_scene.test.mjs game_world.test.mjs consumer.test.mjs
   KINESPHERE_SIMD=1 node --test scenes.test.mjs
   KINESPHERE_SIMD=0 node --test scenes.test.mjs
 }

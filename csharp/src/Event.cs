@@ -17,6 +17,15 @@ namespace Kinesphere
             Native.Check(Native.ks_bounce(ref this, restitution, restingSpeed, ref response));
             return response;
         }
+        /// <summary>Velocities after a bounce of rough balls that turn: rigid bodies of one part, a ball around the
+        /// position.</summary>
+        public Response Bounce(Roughness rough)
+        {
+            rough.Require("rough");
+            var response = new Response().Sized();
+            Native.Check(Native.ks_bounce_rough(ref this, ref rough, ref response));
+            return response;
+        }
     }
 
     public partial struct EventHash

@@ -46,4 +46,41 @@ namespace Kinesphere
             }
         }
     }
+
+    public partial struct Separation
+    {
+        public static Separation Sphere(double distance)
+        {
+            return new Separation { Horizontal = distance, Vertical = distance };
+        }
+    }
+
+    /// <summary>The separation levels between two classes of tracks, the widest first.</summary>
+    public sealed class SeparationRule
+    {
+        public int FirstClass, SecondClass;
+        public Separation[] Levels = new Separation[0];
+    }
+
+    public partial struct ErrorBound
+    {
+        public double Horizontal { get { return horizontal; } }
+        public double Vertical { get { return vertical; } }
+        public static ErrorBound Ball(double radius) { return new ErrorBound { horizontal = radius, vertical = radius }; }
+        public static ErrorBound Cylinder(double horizontal, double vertical)
+        {
+            return new ErrorBound { kind = Native.BoundKind.Cylinder, horizontal = horizontal, vertical = vertical };
+        }
+    }
+
+    public partial struct TrackReport
+    {
+        public void SetPlan(Vector acceleration, ErrorBound limit, double validUntil)
+        {
+            hasPlan = 1;
+            planAcceleration = acceleration;
+            planLimit = limit;
+            planValidUntil = validUntil;
+        }
+    }
 }

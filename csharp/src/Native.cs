@@ -88,6 +88,64 @@ namespace Kinesphere
         }
 
         [StructLayout(LayoutKind.Sequential)]
+        public struct GameDefinition
+        {
+            public uint structSize;
+            public int Reserved;
+            public Vector Gravity;
+            public double Restitution;
+            public double RestingSpeed;
+            public IntPtr Respond;
+            public IntPtr RespondUser;
+            public static GameDefinition Default
+            {
+                get
+                {
+                    GameDefinition made;
+                    Native.Check(Native.ks_game_definition_init(out made, Native.SizeOf<GameDefinition>()));
+                    return made;
+                }
+            }
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct StepPotentialDefinition
+        {
+            public uint structSize;
+            public int Reserved;
+            public UIntPtr Count;
+            public double* Distances;
+            public double* Energies;
+            public double Outside;
+            public double Restitution;
+            public static StepPotentialDefinition Default
+            {
+                get
+                {
+                    StepPotentialDefinition made;
+                    Native.Check(Native.ks_step_potential_definition_init(out made, Native.SizeOf<StepPotentialDefinition>()));
+                    return made;
+                }
+            }
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct EventList
+        {
+            public UIntPtr Count;
+            public Event* Events;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct BodyList
+        {
+            public UIntPtr Count;
+            public BodyId* Ids;
+            public Vector* Positions;
+            public Vector* Velocities;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
         public struct MotionDefinition
         {
             public uint structSize;
@@ -285,6 +343,20 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_bounce(ref Event @event, double restitution, double restingSpeed, ref Response response);
         [DllImport(library)]
+        public static extern int ks_roughness_init(out Roughness roughness, uint structSize);
+        [DllImport(library)]
+        public static extern int ks_bounce_rough(ref Event @event, ref Roughness roughness, ref Response response);
+        [DllImport(library)]
+        public static extern int ks_step_potential_definition_init(out StepPotentialDefinition definition, uint structSize);
+        [DllImport(library)]
+        public static extern int ks_step_potential_create(ulong world, ref StepPotentialDefinition definition, out ulong potential);
+        [DllImport(library)]
+        public static extern int ks_step_potential_destroy(ulong potential);
+        [DllImport(library)]
+        public static extern int ks_step_potential_respond(ulong potential, ref Event @event, ref Response response);
+        [DllImport(library)]
+        public static extern int ks_step_potential_energy(ulong potential, double gap, out double energy);
+        [DllImport(library)]
         public static extern int ks_event_hash_add(ref EventHash hash, ref Event @event);
         [DllImport(library)]
         public static extern int ks_event_hash_value(ref EventHash hash, out ulong value);
@@ -306,6 +378,28 @@ namespace Kinesphere
         public static extern int ks_run_definition_init(out RunDefinition definition, uint structSize);
         [DllImport(library)]
         public static extern int ks_world_run(ulong world, double until, ref RunDefinition definition);
+        [DllImport(library)]
+        public static extern int ks_game_definition_init(out GameDefinition definition, uint structSize);
+        [DllImport(library)]
+        public static extern int ks_game_create(ref WorldDefinition world, ref GameDefinition definition, out ulong game);
+        [DllImport(library)]
+        public static extern int ks_game_restore(byte[] bytes, UIntPtr count, ref GameDefinition definition, PairFilter filter, IntPtr user, out ulong game);
+        [DllImport(library)]
+        public static extern int ks_game_step(ulong game, double dt, out EventList happened);
+        [DllImport(library)]
+        public static extern int ks_game_bodies(ulong game, out BodyList found);
+        [DllImport(library)]
+        public static extern int ks_game_index_of(ulong game, BodyId body, out UIntPtr index);
+        [DllImport(library)]
+        public static extern int ks_game_set_response(ulong game, ref GameDefinition definition);
+        [DllImport(library)]
+        public static extern int ks_game_set_velocities(ulong game, Vector[] velocities, UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_game_set_acceleration(ulong game, BodyId body, Vector acceleration);
+        [DllImport(library)]
+        public static extern int ks_game_set_gravity(ulong game, Vector gravity);
+        [DllImport(library)]
+        public static extern int ks_game_gravity(ulong game, out Vector gravity);
         [DllImport(library)]
         public static extern int ks_motion_definition_init(out MotionDefinition definition, uint structSize);
         [DllImport(library)]

@@ -12,7 +12,7 @@ namespace Kinesphere
     {
         /// <summary>Of a body: what its world says.</summary>
         OfWorld = 0,
-        /// <summary>A begin whenever two touch and approach, and no ends.</summary>
+        /// <summary>A begin whenever two touch and approach, or are put into each other, and no ends.</summary>
         Impacts = 1,
         /// <summary>One begin and one end for each contact.</summary>
         BeginAndEnd = 2,
@@ -174,7 +174,8 @@ namespace Kinesphere
     }
 
     /// <summary>Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other,
-    /// unless both are in one group, which decides by its sign.</summary>
+    /// unless both are in one group, which decides by its sign. A body without a filter of its own, as a floor, has the
+    /// category 1: a mask without that bit lets its body fall through the floor.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct Filter
     {
@@ -495,6 +496,37 @@ namespace Kinesphere
         Vector secondVelocity;
         Vector firstAngularVelocity;
         Vector secondAngularVelocity;
+        int turnedBack;
+        int setsPairState;
+        int pairState;
+        int reserved;
+    }
+
+    /// <summary>How rough spheres or discs bounce: Walton's model.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Roughness
+    {
+        uint structSize;
+        int reserved;
+        /// <summary>In [0, 1], default 1: along the normal.</summary>
+        public double Restitution;
+        /// <summary>In [-1, 1], default 1: what is left of the tangential velocity of the surfaces in a contact that
+        /// sticks, turned back; -1 is smooth.</summary>
+        public double TangentialRestitution;
+        /// <summary>&gt;= 0, default infinity: coefficient beyond which a contact slides.</summary>
+        public double Friction;
+        /// <summary>&gt; 0, default 0.4: moment of inertia in units of mass and squared radius.</summary>
+        public double Inertia;
+        public static Roughness Default
+        {
+            get
+            {
+                Roughness made;
+                Native.Check(Native.ks_roughness_init(out made, Native.SizeOf<Roughness>()));
+                return made;
+            }
+        }
+        internal void Require(string name) { Native.RequireDefault(structSize, "Roughness", name); }
     }
 
     /// <summary>Hash of a set of events ; all zeros at first. Equal values mean bit-identical runs.</summary>

@@ -1,19 +1,20 @@
-// Worlds. Methods have the meanings, errors and costs of those of the C++ headers; wrong use throws a
+// Worlds, and what they are made with. Methods have the meanings, errors and costs of those of the C++ headers; wrong use throws a
 // KinesphereException. An exception in a callback passes through the call that called it.
 using System;
 
 namespace Kinesphere
 {
     /// <summary>A world of moving spheres, and of other things that move.</summary>
-    public sealed unsafe partial class World : IDisposable
+    public unsafe partial class World : IDisposable
     {
         static readonly Native.Probe motions = Native.ks_probe_motions;
-        ulong handle;
+        internal ulong handle;
         bool disposed;
         // The library keeps pointers to these functions, also in clones of this world, which share `kept`.
-        Native.RotationProbe rotations;
-        Native.PairFilter pairs;
-        Caught kept = new Caught();
+        internal Native.RotationProbe rotations;
+        internal Native.PairFilter pairs;
+        internal Native.Respond answer;
+        internal Caught kept = new Caught();
 
         public World(WorldDefinition definition)
         {
@@ -60,7 +61,7 @@ namespace Kinesphere
         }
 
         /// <summary>Throws an exception of a function that the world keeps, or the error of the library, if there is one.</summary>
-        void Check(int status)
+        internal void Check(int status)
         {
             kept.Rethrow();
             Native.Check(status);
@@ -76,5 +77,13 @@ namespace Kinesphere
             return Arrays.Filled<byte>((byte[] bytes, UIntPtr capacity, out UIntPtr count) =>
                 Native.ks_world_recording(handle, bytes, capacity, out count));
         }
+    }
+
+    public partial struct WorldDefinition
+    {
+        /// <summary>Gives the world walls, or on periodic axes a period, at the sides of a box.</summary>
+        public void SetBox(Vector from, Vector to) { hasBox = 1; box = new Native.Box { Lower = from, Upper = to }; }
+        /// <summary>Gives all walls a filter; without one they meet every body.</summary>
+        public void SetWallFilter(Filter filter) { hasWallFilter = 1; wallFilter = filter; }
     }
 }

@@ -5,7 +5,7 @@ using System.Runtime.InteropServices;
 
 namespace Kinesphere
 {
-    public sealed unsafe partial class World
+    public unsafe partial class World
     {
         /// <summary>Advances to the next event, at most to time `until`. Returns the event, with the world at its time;
         /// or one of kind None, with the world at `until`. The probe is for the bodies that no motion moves; null if

@@ -3,7 +3,7 @@ using System;
 
 namespace Kinesphere
 {
-    public sealed unsafe partial class World
+    public unsafe partial class World
     {
         /// <summary>No contact of the whole world begins before this time; it names no partner.</summary>
         public Prediction SafeUntil(Probe probe = null)

@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace Kinesphere
 {
-    public sealed unsafe partial class World
+    public unsafe partial class World
     {
         public BodyId Add(BodyDefinition body) { return AddAll(new[] { body })[0]; }
 

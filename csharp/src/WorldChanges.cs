@@ -3,7 +3,7 @@ using System;
 
 namespace Kinesphere
 {
-    public sealed unsafe partial class World
+    public unsafe partial class World
     {
         /// <summary>Informs the world that a rigid body turns with this angular velocity from now on.</summary>
         public void SetAngularVelocity(BodyId body, Vector angularVelocity)
@@ -47,6 +47,8 @@ namespace Kinesphere
             if (response.Second.HasValue) SetVelocity(happened.Second, response.Second.Value);
             if (response.FirstAngularVelocity.HasValue) SetAngularVelocity(happened.First, response.FirstAngularVelocity.Value);
             if (response.SecondAngularVelocity.HasValue) SetAngularVelocity(happened.Second, response.SecondAngularVelocity.Value);
+            if (response.TurnedBack) TurnBack(happened);
+            if (response.PairState.HasValue) SetPairState(happened.First, happened.Second, response.PairState.Value);
             Act(happened.First, response.FirstAction);
             Act(happened.Second, response.SecondAction);
         }
@@ -159,7 +161,7 @@ namespace Kinesphere
             });
         }
 
-        static Native.PairFilter PairCallback(PairFilter filter, Caught caught)
+        internal static Native.PairFilter PairCallback(PairFilter filter, Caught caught)
         {
             if (filter == null) return null;
             return (first, second, user) =>

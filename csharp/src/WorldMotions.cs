@@ -3,7 +3,7 @@ using System;
 
 namespace Kinesphere
 {
-    public sealed unsafe partial class World
+    public unsafe partial class World
     {
         /// <summary>Adds bodies in free flight.</summary>
         public BodyId[] AddBallistic(State[] states, BodyDefinition like, Vector gravity, double[] radii = null, double[] masses = null)

@@ -1,9 +1,10 @@
 // What a world knows, and where its time goes.
 using System;
+using System.Runtime.InteropServices;
 
 namespace Kinesphere
 {
-    public sealed unsafe partial class World
+    public unsafe partial class World
     {
         /// <summary>The rotation of a rigid body at its last report.</summary>
         public Rotation RotationOf(BodyId body)
@@ -98,5 +99,11 @@ namespace Kinesphere
             return Arrays.Filled<BusyBody>((BusyBody[] bodies, UIntPtr capacity, out UIntPtr count) =>
                 Native.ks_world_busiest(handle, Arrays.NotNegative(most, "most"), bodies, capacity, out count));
         }
+    }
+
+    public partial struct BusyBody
+    {
+        /// <summary>What the reason means, and what makes such a body cheaper.</summary>
+        public string Advice { get { return Marshal.PtrToStringAnsi(Native.ks_probe_reason_advice(Reason)); } }
     }
 }

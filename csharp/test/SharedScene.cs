@@ -1,4 +1,4 @@
-// The scene of tests/same_hash/shared_scene.cpp, run in three ways. Each prints its hash. Then what C# adds to the C
+// The scene of tests/same_hash/shared_scene.cpp, run in three ways, and the game. Each prints its hash. Then what C# adds to the C
 // interface: exceptions of wrong use and of callbacks.
 using System;
 using System.Linq;
@@ -537,6 +537,164 @@ static class SharedScene
         }
     }
 
+    static void Play(Func<double> number)
+    {
+        var room = WorldDefinition.Default;
+        room.SetBox(new Vector(0, 0, 0), new Vector(10, 10, 10));
+        using (var game = new GameWorld(room, new Vector(0, 0, -9.81), 0.9))
+        {
+            var block = StaticDefinition.Default;
+            block.Shape = Shape.Box(new Vector(4, 4, 0), new Vector(6, 6, 1));
+            game.AddStatic(block);
+            for (int k = 0; k < 27; ++k)
+            {
+                var ball = BodyDefinition.Default;
+                ball.Mass = ball.Radius = 0.3 + 0.5 * number();
+                ball.Position = new Vector(2 + k % 3 * 3.0, 2 + k / 3 % 3 * 3.0, 2 + k / 9 * 3.0);
+                ball.Velocity.X = 10 * (number() - 0.5);
+                ball.Velocity.Y = 10 * (number() - 0.5);
+                ball.Velocity.Z = 10 * (number() - 0.5);
+                game.Add(ball);
+            }
+            var hash = new EventHash();
+            for (int frame = 0; frame < 128; ++frame)
+            {
+                if (frame % 16 == 0)
+                    game.SetVelocities(game.Velocities.ToArray().Select(v => new Vector(v.Y, v.Z, v.X)).ToArray());
+                if (frame == 32) game.Remove(game.Ids[3]);
+                if (frame == 64)
+                {
+                    var ball = BodyDefinition.Default;
+                    ball.Radius = 0.25;
+                    ball.Position = new Vector(5, 5, 9.5);
+                    game.Add(ball);
+                }
+                if (frame == 96) game.SetAcceleration(game.Ids[0], new Vector(0, 0, 20));
+                foreach (var happened in game.Step(0.015625)) hash.Add(happened);
+            }
+            Console.WriteLine("{0:x16}", hash.Value);
+        }
+    }
+
+    static GameWorld NewGame(out BodyId id, Respond respond = null)
+    {
+        var room = WorldDefinition.Default;
+        room.Contacts = Contacts.Impacts;
+        room.SetBox(new Vector(0, 0, 0), new Vector(10, 10, 10));
+        var game = new GameWorld(room, new Vector(0, 0, -10), 0.5, 0.1, respond);
+        var ball = BodyDefinition.Default;
+        ball.Radius = 0.5;
+        ball.Position = new Vector(5, 5, 5);
+        id = game.Add(ball);
+        return game;
+    }
+
+    static void Games()
+    {
+        BodyId ball;
+        using (var game = NewGame(out ball))
+        {
+            Require(game.Step(0.5).Length == 0 && game.Velocities[0].Z == -5 && game.Ids[0].Equals(ball), "a flight");
+            var other = game.Add(BodyDefinition.Default);
+            game.Remove(ball);
+            Require(game.Ids.Length == 1 && game.IndexOf(other) == 0 && game.Size == 1, "no gaps");
+            game.Gravity = new Vector();
+            game.SetVelocities(new[] { new Vector(0, 1, 0) });
+            game.SetAcceleration(other, new Vector(0, 0, 4));
+            using (var copy = game.Clone())
+            using (var saved = GameWorld.Restore(game.Save()))
+                foreach (var one in new[] { game, copy, saved })
+                {
+                    one.Step(0.5);
+                    Require(one.Velocities[0].Z == 2 && one.Positions[0].Y == 0.5 && one.Gravity.Z == 0, "a copy");
+                }
+        }
+        int calls = 0;
+        Respond remove = happened =>
+        {
+            if (++calls == 1) return happened.Bounce(1);
+            if (calls == 2) throw new InvalidOperationException("game over");
+            return new Response { FirstAction = BodyAction.Remove };
+        };
+        using (var game = NewGame(out ball, remove))
+        {
+            var met = game.Advance(2);
+            Require(met.Kind == EventKind.WallBegin && game.Time == met.Time && game.Velocities[0].Z > 0, "an event");
+            Require(game.Advance(2).Kind == EventKind.None && game.Time == 2, "nothing more");
+            string said = "";
+            try
+            {
+                game.Step(2);
+            }
+            catch (InvalidOperationException thrown)
+            {
+                said = thrown.Message;
+            }
+            Require(said == "game over", "the exception of a response");
+            Require(game.Step(2).Length == 1 && game.Ids.Length == 0, "what a response removes");
+            game.SetResponse(0.5);
+            game.Add(BodyDefinition.Default);
+            game.Step(1);
+            Require(calls == 3, "another response");
+        }
+        using (var game = NewGame(out ball))
+        {
+            var nan = new Vector(0, double.NaN, 0);
+            RequireStatus("not_finite", () => game.Step(double.NaN));
+            RequireStatus("out_of_range", () => game.SetVelocities(new Vector[2]));
+            RequireStatus("not_finite", () => game.SetVelocities(new[] { nan }));
+            RequireStatus("unsupported", () => game.SetMotionLimits(ball, new MotionLimits()));
+            RequireStatus("unsupported", () => game.Run(1));
+            RequireStatus("unsupported", () => game.Advance(1, (ids, time, states) => { }));
+            game.Remove(ball);
+            RequireStatus("stale_body", () => game.IndexOf(ball));
+            RequireStatus("bad_snapshot", () => World.Restore(game.Save()));
+            RequireStatus("out_of_range", () => new GameWorld(WorldDefinition.Default, new Vector(), 2));
+            game.Dispose();
+            RequireStatus("stale_handle", () => game.Step(1));
+            RequireStatus("stale_handle", () => Console.WriteLine(game.Positions.Length));
+        }
+    }
+
+    static void WellsAndRoughness()
+    {
+        var definition = WorldDefinition.Default;
+        definition.Contacts = Contacts.Impacts;
+        using (var world = new World(definition))
+        {
+            var start = new[] { new State(new Vector(-0.6, 0, 0), new Vector(0.5, 0, 0)),
+                                new State(new Vector(0.6, 0, 0), new Vector(-0.5, 0, 0)) };
+            var ids = world.AddBallistic(start, BodyDefinition.Default, new Vector(), new[] { 0.5, 0.5 });
+            world.SetSensor(0, new[] { 0.5 });
+            var well = new StepPotential(world, new[] { 0.5 }, new[] { -1.0 });
+            Require(well.Energy(0.4) == -1 && well.Energy(0.6) == 0, "energies");
+            int turns = 0, contacts = 0;
+            world.Run(20, respond: well.Respond, sink: happened =>
+            {
+                turns += well.Respond(happened).TurnedBack ? 1 : 0;
+                contacts += happened.Kind == EventKind.ContactBegin ? 1 : 0;
+            });
+            for (var next = world.Advance(40); next.Kind != EventKind.None; next = world.Advance(40))
+            {
+                turns += well.Respond(next).TurnedBack ? 1 : 0;
+                world.Apply(next, well.Respond(next));
+                contacts += next.Kind == EventKind.ContactBegin ? 1 : 0;
+                if (next.Kind != EventKind.ContactBegin) continue;
+                var smooth = Roughness.Default;
+                smooth.TangentialRestitution = -1;
+                Require(next.Bounce(smooth).First.Value.X == next.Bounce(1).First.Value.X, "smooth balls");
+                smooth.Friction = -1;
+                RequireArgument("rough", () => next.Bounce(new Roughness()));
+                RequireStatus("out_of_range", () => next.Bounce(smooth));
+            }
+            Require(Math.Abs(turns - 40) <= 1 && Math.Abs(contacts - 40) <= 1, "turned back: " + turns);
+            Require(world.SensorOverlaps(ids[0]).Length == 1, "still within the well");
+            RequireStatus("out_of_range", () => new StepPotential(world, new[] { 0.5, 0.4 }, new[] { 0.0, 1.0 }));
+            well.Dispose();
+            RequireStatus("stale_handle", () => well.Energy(1));
+        }
+    }
+
     static int Main()
     {
         ulong random = 1;
@@ -558,6 +716,9 @@ static class SharedScene
         StepByStep(NewWorld(start, radii));
         AtOnce(NewWorld(start, radii), null, 1);
         AtOnce(NewWorld(start, radii), happened => happened.Bounce(0.9), 2);
+        Play(number);
+        Games();
+        WellsAndRoughness();
         WrongUse();
         WrongArguments();
         Callbacks();

@@ -10,9 +10,10 @@ namespace kinesphere {
 enum class ContactEvents : std::uint8_t {
   /// A begin whenever the two touch and approach, and no ends: the least, for bodies that only bounce. Two
   /// that
-  /// touch or overlap without an approach have no event, as a body that is added at rest inside another: no
-  /// bounce could part them. To hear of it, let that body ask for begin_and_end, or look before it is added
-  /// (Queries::overlapping); WorldDefinition::allow_overlap = false refuses it.
+  /// touch without an approach have no event, but for two that a change of the caller has put into each other
+  /// by
+  /// more than the contact tolerance, as a body that is added at rest inside another: they have one begin at
+  /// once, although no bounce could part them. WorldDefinition::allow_overlap = false refuses it.
   impacts = 1,
   /// One begin and one end for each contact, for bodies whose contacts are watched and seldom answered. There
   /// is another begin (Event::already_touching) only for the first approach of two that did not approach when

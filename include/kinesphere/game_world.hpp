@@ -17,7 +17,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,7 +25,6 @@
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/event.hpp"
-#include "kinesphere/event_range.hpp"
 #include "kinesphere/queries.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/run.hpp"
@@ -58,16 +56,14 @@ struct GameDefinition {
 /// A world, the motion of its bodies and the response to its events, as one value.
 ///
 /// Errors. As for World, whose names and messages they have. Besides, each call that returns a Result returns
-/// run_in_progress inside the game's response, and step() and the calls that say so also in a loop over
-/// step_through(). A moved-from game answers with moved_from. Calls that return no Result throw BadResult.
+/// run_in_progress inside the game's response. A moved-from game answers with moved_from. Calls that return
+/// no Result throw BadResult.
 ///
-/// Threads: one at a time; between steps, several may make const calls. Lifetimes: references and queries are
+/// Threads: one at a time; after a step, several may make const calls. Lifetimes: references and queries are
 /// valid until the game is assigned to or destroyed, spans until the next call that is not const. A game may
 /// be moved at any time.
 class GameWorld {
  public:
-  class Events;
-
   /// Creates a game without bodies. Errors: as World::create(); not_finite or out_of_range for the gravity.
   static Result<GameWorld> create(const GameDefinition& definition);
   /// A moved-from game may only be assigned to and destroyed.
@@ -79,6 +75,8 @@ class GameWorld {
 
   /// Adds a body. Its acceleration is `planned_acceleration` beside the gravity of the game.
   Result<BodyId> add(const BodyDefinition& body);
+  /// Adds bodies or, on an error, none: World::add_all().
+  Result<std::vector<BodyId>> add_all(std::span<const BodyDefinition> bodies);
   /// Adds a body that carries a shape: World::add_moving_shape().
   Result<BodyId> add_moving_shape(const MovingShape& body);
   /// Adds a rigid body, which turns evenly between events.
@@ -93,6 +91,8 @@ class GameWorld {
   Result<void> teleport(BodyId body, const State& state);
   /// Gives a body another velocity: World::set_velocity().
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
+  /// Gives each body the velocity at its place, or, on an error, none: World::set_velocities().
+  Result<void> set_velocities(BodyIds bodies, std::span<const Vec3> velocities);
   /// Sets the velocities of all bodies, in the order of ids(), or, on an error, of none. A body that has its
   /// velocity already goes on undisturbed, asleep or awake; entries of disabled bodies have no effect.
   /// Errors: out_of_range for another number of velocities; as set_velocity(). Cost: O(n), and a search for
@@ -113,17 +113,18 @@ class GameWorld {
   // Time.
 
   /// Advances by dt > 0, answers each event by the response of the game, and returns all events of the step,
-  /// in order. Errors: not_finite or out_of_range for dt; run_in_progress inside a response and in a loop
-  /// over step_through(); those of World::run(). After an error, or an exception of the response, the game
-  /// stands at its time(), and the next step goes on from there; it first answers the event that could not be
-  /// answered, and returns the events of the interrupted step, too.
+  /// in order. Errors: not_finite or out_of_range for dt; run_in_progress inside a response; those of
+  /// World::run(). After an error, or an exception of the response, the game stands at its time(), and the
+  /// next step goes on from there; it first answers the event that could not be answered, and returns the
+  /// events of the interrupted step, too.
   Result<std::span<const Event>> step(double dt);
-  /// Advances by dt event by event, so that the loop may answer them in its own way, and change the game:
-  ///   for (const Event& event : game.step_through(dt))
-  ///     if (event.kind == EventKind::contact_begin) game.remove(event.first).value();
-  /// In the loop the game stands at the event, after its response. A loop that is left early leaves the game
-  /// there, and the next step goes on from there. Errors of step() are thrown as BadResult.
-  [[nodiscard]] Events step_through(double dt);
+  /// Advances to the next event, at most to the time `until`, answers it by the response of the game, and
+  /// returns it, or nothing once the game is at `until`. The game stands at the event then, and may be
+  /// changed:
+  ///   while (const auto event = game.advance(until).value())
+  ///     if (event->kind == EventKind::contact_begin) game.remove(event->first).value();
+  /// Errors: as step(); time_backwards if `until` has passed.
+  Result<std::optional<Event>> advance(double until);
   /// Replaces the response. Errors: run_in_progress inside of it.
   Result<void> set_response(GameResponse response);
 
@@ -140,7 +141,8 @@ class GameWorld {
   std::span<const Vec3> velocities() const;
   /// Returns the place of a body in ids(), or nothing for one that is not there.
   std::optional<std::size_t> index_of(BodyId body) const;
-  /// Returns position and velocity at time(). Throws BadResult with unknown_body for a body not in ids().
+  /// Returns position and velocity at time(). Throws BadResult for a body not in ids(): as World::body();
+  /// static_body.
   State state(BodyId body) const;
 
   /// The spatial queries at time(), exact but for rounding.
@@ -171,34 +173,6 @@ class GameWorld {
   Game& game(std::string_view call) const;
 
   std::unique_ptr<Game> game_;  ///< null after a move
-};
-
-/// Single-pass range over the events of one step (GameWorld::step_through). The step ends with it.
-class [[nodiscard]] GameWorld::Events {
- public:
-  /// Single-pass; the end is std::default_sentinel.
-  using Iterator = EventIterator<Events>;
-
-  Events(const Events&) = delete;
-  Events& operator=(const Events&) = delete;
-  ~Events();
-  /// Advances to the first event.
-  Iterator begin() {
-    go_on();
-    return Iterator(*this);
-  }
-  /// The end of every range.
-  std::default_sentinel_t end() const { return {}; }
-
- private:
-  friend class GameWorld;
-  friend Iterator;
-  Events(Game& game, double until);
-  void go_on();
-
-  Game& game_;
-  double until_;
-  std::optional<Event> event_;
 };
 
 }  // namespace kinesphere

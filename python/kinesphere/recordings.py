@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
-from ._kinesphere import World, _read_recording
+from ._kinesphere import GameWorld, World, _read_recording
 from .events import Events
 
 
@@ -34,3 +36,8 @@ def read_recording(recording: bytes) -> RecordedRun:
 def restored(snapshot: bytes) -> World:
     """What a pickled world calls: World.restore() under a name that pickle can write down."""
     return World.restore(snapshot)
+
+
+def restored_game(snapshot: bytes, respond: Any) -> GameWorld:
+    """What a pickled game calls, as restored()."""
+    return GameWorld.restore(snapshot, respond)

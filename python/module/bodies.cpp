@@ -113,7 +113,8 @@ py::object one_row(const py::object& vector) {
 /// arrays.
 std::vector<BodyId> add_all(WorldHandle& handle, const std::vector<BodyDefinition>& bodies,
                             const std::string& call) {
-  const Result<std::vector<BodyId>> ids = without_gil(handle, [&] { return handle.world.add_all(bodies); });
+  const Result<std::vector<BodyId>> ids =
+      without_gil(handle, [&] { return handle.change([&](auto& to) { return to.add_all(bodies); }); });
   if (ids) return *ids;
   Error error = ids.error();
   constexpr std::string_view inner = "add_all: bodies[";
@@ -139,7 +140,7 @@ py::object add_bodies(WorldHandle& handle, const py::object& positions, const py
                      acceleration_limits, planned_accelerations, position_errors, velocity_errors,
                      {radii, categories, masks, group, solid, sensor_classes, user_data, mass, contacts});
   if (single) {
-    const BodyId id = handle.world.add(bodies.front()).value();
+    const BodyId id = handle.change([&](auto& to) { return to.add(bodies.front()); }).value();
     end_call(handle);
     return object_of(id);
   }
@@ -152,6 +153,7 @@ py::object add_motion(WorldHandle& handle, MotionHandle& moved, const py::object
                       const py::object& solid, const py::object& sensor_classes, const py::object& user_data,
                       const py::object& masses, const std::optional<std::string>& contacts) {
   const auto turn = handle.take("add_motion");
+  handle.require_moved_by_others("add_motion");
   const auto turn_of_motion = moved.in_use.take_alone("add_motion", "motion");
   const Motion& motion = *moved.motion;
   const Argument argument{"add_motion", "motion"};
@@ -203,21 +205,19 @@ py::object add_moving_shape(WorldHandle& handle, const py::object& shape, const 
   const auto vector = [&](const py::object& given, const char* name) {
     return given.is_none() ? Vec3{} : vector_of(given, {call, name}, handle.is_plane());
   };
-  const BodyId id =
-      handle.world
-          .add_moving_shape({{.acceleration_limit = acceleration_limit,
-                              .planned_acceleration = vector(planned_acceleration, "planned_acceleration"),
-                              .position_error = position_error,
-                              .velocity_error = velocity_error,
-                              .position = vector(position, "position"),
-                              .velocity = vector(velocity, "velocity"),
-                              .filter = {category, mask, group_of(group, {call, "group"})},
-                              .solid = solid,
-                              .sensor_class = sensor_class_of(sensor_class, {call, "sensor_class"}),
-                              .user_data = user_data,
-                              .mass = mass},
-                             shape_of(shape, {call, "shape"})})
-          .value();
+  const MovingShape moving{{.acceleration_limit = acceleration_limit,
+                            .planned_acceleration = vector(planned_acceleration, "planned_acceleration"),
+                            .position_error = position_error,
+                            .velocity_error = velocity_error,
+                            .position = vector(position, "position"),
+                            .velocity = vector(velocity, "velocity"),
+                            .filter = {category, mask, group_of(group, {call, "group"})},
+                            .solid = solid,
+                            .sensor_class = sensor_class_of(sensor_class, {call, "sensor_class"}),
+                            .user_data = user_data,
+                            .mass = mass},
+                           shape_of(shape, {call, "shape"})};
+  const BodyId id = handle.change([&](auto& to) { return to.add_moving_shape(moving); }).value();
   end_call(handle);
   return object_of(id);
 }
@@ -248,7 +248,7 @@ py::object add_mesh(WorldHandle& handle, const py::object& vertices, const py::o
 void remove(WorldHandle& handle, const py::object& bodies) {
   const auto turn = handle.take("remove");
   const Ids named = ids_of(bodies, {"remove", "bodies"});
-  require(handle.world.remove(named.ids));
+  require(handle.change([&](auto& of) { return of.remove(named.ids); }));
   end_call(handle);
 }
 
@@ -261,11 +261,17 @@ void change_each(WorldHandle& handle, const py::object& bodies, const char* call
   end_call(handle);
 }
 
-/// Binds a call that changes bodies, each in the same way.
+/// For changes that games leave to their worlds.
+World& world_of(World& world) { return world; }
+World& world_of(GameWorld& game) { return game.world(); }
+
+/// Binds a call that changes bodies of a world or a game, each in the same way.
 template <class Change>
 auto changing(const char* call, Change change) {
   return [call, change](WorldHandle& handle, const py::object& bodies) {
-    change_each(handle, bodies, call, [&](BodyId body, std::size_t) { return change(handle.world, body); });
+    change_each(handle, bodies, call, [&](BodyId body, std::size_t) {
+      return handle.change([&](auto& of) { return change(of, body); });
+    });
   };
 }
 
@@ -281,8 +287,10 @@ void set_velocity(WorldHandle& handle, const py::object& bodies, const py::objec
   const auto turn = handle.take("set_velocity");
   const Ids named = ids_of(bodies, {"set_velocity", "bodies"});
   const std::vector<Vec3> each = vectors_for(handle, bodies, velocities, {"set_velocity", "velocities"});
-  require(named.is_single ? handle.world.set_velocity(named.ids.front(), each.front())
-                          : handle.world.set_velocities(named.ids, each));
+  require(handle.change([&](auto& of) {
+    return named.is_single ? of.set_velocity(named.ids.front(), each.front())
+                           : of.set_velocities(named.ids, each);
+  }));
   end_call(handle);
 }
 
@@ -294,7 +302,7 @@ void put(WorldHandle& handle, const py::object& bodies, const py::object& positi
   std::vector<Vec3> speeds(places.size());
   if (!velocities.is_none()) speeds = vectors_for(handle, bodies, velocities, {call, "velocities"});
   change_each(handle, bodies, call, [&](BodyId body, std::size_t k) {
-    return change(handle.world, body, State{places[k], speeds[k]});
+    return handle.change([&](auto& of) { return change(of, body, State{places[k], speeds[k]}); });
   });
 }
 
@@ -329,6 +337,7 @@ void set_mass(WorldHandle& handle, const py::object& bodies, const py::object& m
 
 void set_motion_limits(WorldHandle& handle, const py::object& bodies, double acceleration_limit,
                        const py::object& plan, double position_error, double velocity_error) {
+  handle.require_moved_by_others("set_motion_limits");
   const MotionLimits limits{acceleration_limit,
                             vector_of(plan, {"set_motion_limits", "planned_acceleration"}, handle.is_plane()),
                             position_error, velocity_error};
@@ -459,7 +468,7 @@ changed.)")
           [](WorldHandle& handle, const py::object& bodies, const py::object& positions,
              const py::object& velocities) {
             put(handle, bodies, positions, velocities, "teleport",
-                [](World& of, BodyId body, const State& state) { return of.teleport(body, state); });
+                [](auto& of, BodyId body, const State& state) { return of.teleport(body, state); });
           },
           py::arg("bodies"), py::arg("positions"), py::arg("velocities") = py::none(),
           "These bodies are in other states from now on; shapes as in set_velocity().")
@@ -480,35 +489,39 @@ surfaces approach, and body() has the present radius. Such a ball cannot sleep.)
            py::kw_only(), py::arg("planned_acceleration") = py::make_tuple(0.0, 0.0, 0.0),
            py::arg("position_error") = 0.0, py::arg("velocity_error") = 0.0,
            "From now on these bodies move within these limits; see add().")
-      .def("disable", changing("disable", [](World& of, BodyId body) { return of.disable(body); }),
+      .def("disable", changing("disable", [](auto& of, BodyId body) { return of.disable(body); }),
            py::arg("bodies"), "Disabled bodies touch nobody and are not probed. They keep their ids.")
       .def(
           "enable",
           [](WorldHandle& handle, const py::object& bodies, const py::object& positions,
              const py::object& velocities) {
             put(handle, bodies, positions, velocities, "enable",
-                [](World& of, BodyId body, const State& state) { return of.enable(body, state); });
+                [](auto& of, BodyId body, const State& state) { return of.enable(body, state); });
           },
           py::arg("bodies"), py::arg("positions"), py::arg("velocities") = py::none(),
           "These bodies are back, in these states.")
-      .def("sleep", changing("sleep", [](World& of, BodyId body) { return of.sleep(body); }),
+      .def("sleep", changing("sleep", [](auto& of, BodyId body) { return of.sleep(body); }),
            py::arg("bodies"),
            "These bodies stay exactly where they are until they are woken, and cost nothing meanwhile.")
-      .def("wake", changing("wake", [](World& of, BodyId body) { return of.wake(body); }), py::arg("bodies"),
-           "Wakes these bodies, and all resting ones in touch with them.")
+      .def("wake", changing("wake", [](auto& of, BodyId body) { return world_of(of).wake(body); }),
+           py::arg("bodies"), "Wakes these bodies, and all resting ones in touch with them.")
       .def("set_filter", set_filter, py::arg("bodies"), py::kw_only(), py::arg("category") = 1,
            py::arg("mask") = all_categories, py::arg("group") = 0,
            R"(Two bodies touch if the category of each has a bit in the mask of the other; of the same
-non-zero group, if it is positive.)")
+non-zero group, if it is positive.
+
+A body without a filter of its own, as a floor, has the category 1: a mask without that bit lets its body fall
+through the floor.)")
       .def("set_pair_filter", set_pair_filter, py::arg("function"),
            R"(A function of two ids that says whether these bodies may touch, or None.
 
 It must be symmetric, and its answers must not change but before refresh_filter(). What it raises comes out of
 the call of the world that asked it, and counts as True.)")
-      .def("refresh_filter",
-           changing("refresh_filter", [](World& of, BodyId body) { return of.refresh_filter(body); }),
-           py::arg("bodies"),
-           "Tells the world that the pair filter's answers about these bodies have changed.")
+      .def(
+          "refresh_filter",
+          changing("refresh_filter", [](auto& of, BodyId body) { return world_of(of).refresh_filter(body); }),
+          py::arg("bodies"),
+          "Tells the world that the pair filter's answers about these bodies have changed.")
       .def(
           "set_solid",
           [](WorldHandle& handle, const py::object& bodies, bool solid) {

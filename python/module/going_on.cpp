@@ -6,7 +6,6 @@
 #include "exchange.hpp"
 #include "mover.hpp"
 #include "moving.hpp"
-#include "scenes.hpp"
 #include "simulation/run/scene_answer.hpp"
 #include "threads.hpp"
 #include "world.hpp"
@@ -87,6 +86,7 @@ std::optional<Event> advanced(WorldHandle& handle, double until, Asked& asked) {
 }
 
 py::object advance(WorldHandle& handle, double until, const py::object& probe) {
+  handle.require_moved_by_others("advance");
   require_added(handle, probe, "advance");
   Asked asked(probe, "advance", handle.is_plane());
   const std::optional<Event> event = advanced(handle, until, asked);
@@ -102,6 +102,7 @@ class EventIterator {
   double until() const { return until_; }
 
   Event next() {
+    handle_->require_moved_by_others("events");
     require_added(*handle_, probe_, "events");
     // Between two events the caller may change the motion.
     Asked asked(probe_, "events", handle_->is_plane());
@@ -129,11 +130,14 @@ class Responding {
       bouncing_ = &given.cast<const Bouncing&>();
     } else if (py::isinstance<StepPotential>(given)) {
       potential_ = &given.cast<const StepPotential&>();
+    } else if (py::isinstance<Roughness>(given)) {
+      rough_ = &given.cast<const Roughness&>();
     } else if (py::isinstance<SceneHandle>(given)) {
       scene_ = &given.cast<const SceneHandle&>();
     } else if (PyCallable_Check(given.ptr()) == 0 || PyType_Check(given.ptr()) != 0) {
       throw py::type_error(
-          "run: respond must be a Bouncing, a StepPotential, a Scene or a function of an event, but is " +
+          "run: respond must be a Bouncing, a Roughness, a StepPotential, a Scene or a function of an event, "
+          "but is " +
           py::repr(given).cast<std::string>());
     }
   }
@@ -145,6 +149,7 @@ class Responding {
   Response operator()(const Event& event) const {
     if (bouncing_ != nullptr) return bouncing_->answer(event);
     if (potential_ != nullptr) return potential_->respond(event);
+    if (rough_ != nullptr) return answer_of_rough(event, *rough_);
     if (scene_ != nullptr) {
       check_known(event.first);
       check_known(event.second);
@@ -171,6 +176,7 @@ class Responding {
   py::object given_;
   const Bouncing* bouncing_ = nullptr;
   const StepPotential* potential_ = nullptr;
+  const Roughness* rough_ = nullptr;
   const Scene* scene_ = nullptr;
 };
 
@@ -239,6 +245,7 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
                const py::object& sink, const py::object& at_stop, const py::object& threads,
                const py::object& progress) {
   const auto turn = handle.take("run");
+  handle.require_moved_by_others("run");
   require_added(handle, motion, "run");
   Asked asked(motion, "run", handle.is_plane());
   if (!at_stop.is_none() && PyCallable_Check(at_stop.ptr()) == 0)
@@ -326,7 +333,7 @@ it is left early, the world stands at the last event. Each step is an advance().
 
 motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any
 probe.
-respond: what gives bodies new velocities at an event: a Bouncing, a StepPotential, a Scene, or a function of the Event that
+respond: what gives bodies new velocities at an event: a Bouncing, a Roughness, a StepPotential, a Scene, or a function of the Event that
 returns None or (first velocity or None, second velocity or None); for a rigid body a tuple (velocity or None,
 angular velocity or None), as bounce_rigid() makes it, may take the place of its velocity; for any body so may
 'remove', 'disable' or 'sleep', which do to it what the methods of the world do. (first, second, 'stop') stops the

@@ -4,17 +4,22 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "guard.hpp"
 #include "kinesphere/monitor/monitor.hpp"
-#include "monitor_events.hpp"
+#include "records.hpp"
 
 namespace kinesphere::python {
 
 namespace py = pybind11;
+
+/// Returns a kinesphere.MonitorEvents.
+py::object table_of(std::span<const MonitorEventRecord> records);
+void bind_monitor_events(py::module_& module);
 
 struct MonitorHandle {
   explicit MonitorHandle(Monitor made) : monitor(std::move(made)) {}

@@ -1,4 +1,4 @@
-#include "monitor_events.hpp"
+#include "monitor.hpp"
 
 #include <cstddef>
 #include <cstring>

@@ -1,6 +1,7 @@
 #include "moving.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "errors.hpp"
 #include "exchange.hpp"
@@ -91,6 +92,11 @@ Probe Asked::probe() {
 void Asked::ask(std::span<const BodyId> ids, double time, std::span<State> states) {
   interruptions_.look(1);
   interruptions_.call([&] { read_states(given_(array_of(ids), time), states, call_, plane_); });
+}
+
+Response answer_of_rough(const Event& event, const Roughness& rough) {
+  const bool is_begin = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+  return is_begin ? response_of(event, bounce(event, rough)) : Response{};
 }
 
 namespace {
@@ -210,6 +216,38 @@ resting_speed (length / time) bodies come to rest as settle() has them.)")
            })
       .def("__reduce__", [](const py::object& self) {
         return py::make_tuple(self.get_type(), self.cast<const Bouncing&>().arguments());
+      });
+  py::class_<Roughness>(
+      module, "Roughness",
+      R"(A ready-made response for World.run(): rough balls that turn each other, by Walton's model.
+
+The balls are rigid bodies of one Ball around their position (World.add_rigid_body). restitution (0 to 1): along
+the normal; tangential_restitution (-1 to 1): of a contact that sticks, -1 is smooth and 1 loses no energy;
+friction (>= 0): the coefficient beyond which it slides; inertia (> 0): the moment of inertia in units of mass and
+squared radius, 0.4 for solid spheres, 0.5 for discs. For one contact: bounce_rigid(contact, Roughness(...)).)")
+      .def(py::init([](double restitution, double tangential_restitution, double friction, double inertia) {
+             const auto require_that = [](bool holds, const char* name, const char* expectation,
+                                          double given) {
+               if (!holds) refuse({"Roughness", name}, expectation, "is " + shown(given));
+             };
+             require_bounce("Roughness", restitution);
+             require_that(std::abs(tangential_restitution) <= 1.0, "tangential_restitution",
+                          "must lie in [-1, 1]", tangential_restitution);
+             require_that(friction >= 0.0, "friction", "must be >= 0", friction);
+             require_that(inertia > 0.0 && std::isfinite(inertia), "inertia", "must be finite and > 0",
+                          inertia);
+             return Roughness{restitution, tangential_restitution, friction, inertia};
+           }),
+           py::arg("restitution") = 1.0, py::arg("tangential_restitution") = 1.0,
+           py::arg("friction") = std::numeric_limits<double>::infinity(), py::arg("inertia") = 0.4)
+      .def_readonly("restitution", &Roughness::restitution)
+      .def_readonly("tangential_restitution", &Roughness::tangential_restitution)
+      .def_readonly("friction", &Roughness::friction)
+      .def_readonly("inertia", &Roughness::inertia)
+      .def("__repr__", repr_of_parts("restitution", "tangential_restitution", "friction", "inertia"))
+      .def("__reduce__", [](const py::object& self) {
+        const auto& [restitution, tangential, friction, inertia] = self.cast<const Roughness&>();
+        return py::make_tuple(self.get_type(), py::make_tuple(restitution, tangential, friction, inertia));
       });
   py::class_<StepPotential>(
       module, "StepPotential",

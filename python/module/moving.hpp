@@ -83,6 +83,9 @@ class Bouncing {
   double resting_speed_;
 };
 
+/// Returns the response of rough balls to a begin.
+Response answer_of_rough(const Event& event, const Roughness& rough);
+
 /// Converts the result of a Python function for an event: None, or for each of the two bodies a velocity, a
 /// tuple (velocity, angular velocity), the name of a BodyAction, or None, and possibly "stop" behind them.
 Response answer_of(const py::object& returned, bool plane);

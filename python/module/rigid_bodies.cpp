@@ -57,7 +57,7 @@ py::object add_rigid_body(WorldHandle& handle, const py::object& parts, const py
                   .sensor_class = sensor_class_of(sensor_class, {call, "sensor_class"}),
                   .user_data = user_data,
                   .mass = mass});
-  const BodyId id = handle.world.add_rigid_body(body).value();
+  const BodyId id = handle.change([&](auto& to) { return to.add_rigid_body(body); }).value();
   end_call(handle);
   return object_of(id);
 }
@@ -153,9 +153,15 @@ void set_rotation_probe(WorldHandle& handle, const py::object& function) {
   end_call(handle);
 }
 
-py::tuple bounce_rigid(const Event& contact, double restitution) {
-  require_bounce("bounce_rigid", restitution);
-  const Response after = response_of(contact, bounce(contact, restitution));
+py::tuple bounce_rigid(const Event& contact, const py::object& restitution) {
+  Response after;
+  if (py::isinstance<Roughness>(restitution)) {
+    after = answer_of_rough(contact, restitution.cast<const Roughness&>());
+  } else {
+    const auto normal = restitution.cast<double>();
+    require_bounce("bounce_rigid", normal);
+    after = response_of(contact, bounce(contact, normal));
+  }
   const auto vector = [](const std::optional<Vec3>& given) {
     return given ? array_of(*given) : py::object(py::none());
   };
@@ -281,7 +287,8 @@ not contain it, and the world cannot be pickled. During it the world cannot be c
 
 Each is an array of shape (3,), or None for what the contact leaves as it is: walls, static bodies, spins of bodies
 that are no rigid ones or without inertia. A function for World.run() may return it. Momentum and angular momentum
-are conserved, and with restitution 1 energy is. Masses are those of the event.)");
+are conserved, and with restitution 1 energy is. Masses are those of the event. In place of the restitution a
+Roughness stands for rough balls.)");
 }
 
 }  // namespace kinesphere::python

@@ -13,7 +13,6 @@
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "motions.hpp"
-#include "scenes.hpp"
 #include "shapes.hpp"
 #include "world.hpp"
 

@@ -46,11 +46,6 @@ std::shared_ptr<WorldHandle> clone(WorldHandle& handle) {
   return copy;
 }
 
-py::bytes save(WorldHandle& handle) {
-  const auto turn = handle.take("save");
-  return bytes_of(without_gil(handle, [&] { return handle.world.save(); }).value());
-}
-
 py::tuple pickled(const py::object& self) {
   auto& handle = self.cast<WorldHandle&>();
   if (handle.filter_trouble)
@@ -69,6 +64,12 @@ py::tuple pickled(const py::object& self) {
 }
 
 }  // namespace
+
+py::bytes save(WorldHandle& handle) {
+  const auto turn = handle.take("save");
+  return bytes_of(
+      without_gil(handle, [&] { return handle.change([](auto& of) { return of.save(); }); }).value());
+}
 
 Axes axes_of(const py::object& given, const Argument& argument, bool plane) {
   const auto found = [&] { return "is " + py::repr(given).cast<std::string>(); };
@@ -214,6 +215,7 @@ What moves the bodies, and a pair filter, are the caller's to save.)")
   bind_going_on(module, world);
   bind_answers(module, world);
   bind_inspection(module, world);
+  bind_game(module, world);
 }
 
 }  // namespace kinesphere::python

@@ -7,11 +7,14 @@
 #include <memory>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "events.hpp"
 #include "guard.hpp"
-#include "kinesphere/world.hpp"
+#include "kinesphere/game_world.hpp"
+#include "simulation/scene/make_scene.hpp"
+#include "simulation/scene/scene.hpp"
 
 namespace kinesphere::python {
 
@@ -23,10 +26,13 @@ struct FilterTrouble {
   std::exception_ptr thrown;
 };
 
+/// A world, or a game, which is a world that moves its own bodies.
 struct WorldHandle {
-  explicit WorldHandle(World made) : world(std::move(made)) {}
+  explicit WorldHandle(World made) : owned(std::move(made)), world(std::get<World>(owned)) {}
+  explicit WorldHandle(GameWorld made) : owned(std::move(made)), world(std::get<GameWorld>(owned).world()) {}
 
-  World world;
+  std::variant<World, GameWorld> owned;
+  World& world;
   InUse in_use{};
   /// Events that an interrupted run has delivered.
   std::vector<EventRecord> undelivered{};
@@ -44,6 +50,21 @@ struct WorldHandle {
   /// For other threads: a time that the world has reached. The thread that uses the world sets it, and each
   /// thread reads it, under the GIL.
   double reached = world.time();
+
+  bool is_game() const { return std::holds_alternative<GameWorld>(owned); }
+  GameWorld& game() { return std::get<GameWorld>(owned); }
+  /// Calls change(game) for a game, and change(world) for any other world: for calls that both have.
+  template <class Change>
+  auto change(const Change& change_it) {
+    return is_game() ? change_it(game()) : change_it(world);
+  }
+  /// Throws BadResult for a game, which moves its bodies itself.
+  void require_moved_by_others(std::string_view call) const {
+    if (!is_game()) return;
+    throw BadResult({ErrorCode::unsupported, "world", no_body,
+                     std::string(call) + ": world must be moved by others, but a GameWorld moves its bodies "
+                                         "itself: step(), advance() and events() let time pass"});
+  }
 
   bool is_plane() const { return world.definition().dimensions == 2; }
   InUse::Use take(std::string_view call) {
@@ -80,6 +101,12 @@ auto reading(const char* call, Read read) {
   };
 }
 
+/// A scene with the parameters that it was made from.
+struct SceneHandle : Scene {
+  SceneHandle(Scene made, SceneParameters given) : Scene(std::move(made)), parameters(std::move(given)) {}
+  SceneParameters parameters;
+};
+
 using WorldClass = py::class_<WorldHandle, std::shared_ptr<WorldHandle>>;
 
 /// Reads True for all axes, or some of the letters "xyz".
@@ -94,6 +121,7 @@ void bind_going_on(py::module_& module, WorldClass& world);
 void bind_answers(py::module_& module, WorldClass& world);
 void bind_inspection(py::module_& module, WorldClass& world);
 void bind_world(py::module_& module);
+void bind_game(py::module_& module, WorldClass& world);
 void bind_body_map(py::module_& module);
 void bind_replay(py::module_& module);
 void bind_placement(py::module_& module);
@@ -101,6 +129,8 @@ void bind_scenes(py::module_& module);
 void bind_tracks(py::module_& module);
 void bind_paths(py::module_& module);
 
+/// Returns a snapshot of the world or the game.
+py::bytes save(WorldHandle& handle);
 /// Returns a Python function for callbacks that the engine keeps: copies of a world share it, and the last of
 /// them may be destroyed without the GIL.
 std::shared_ptr<py::object> kept_by_engine(const py::object& function);

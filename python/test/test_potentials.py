@@ -1,5 +1,7 @@
 """Timers, states of pairs, and potentials of steps."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -72,3 +74,47 @@ def test_a_potential_that_is_none_is_refused() -> None:
         ks.StepPotential(world, [0.5, 0.4], [1.0, 2.0])
     with pytest.raises(ks.KinesphereError, match="number of energies"):
         ks.StepPotential(world, [0.5], [1.0, 2.0])
+
+
+def rough_gas(count: int = 60) -> ks.GameWorld:
+    """Balls of radius 1/2 that fly, and do not turn."""
+    game = ks.GameWorld(
+        respond=ks.Roughness(), box=((0, 0, 0), (8, 8, 8)), periodic="xyz", contacts="impacts"
+    )
+    random = np.random.default_rng(1)
+    for position, velocity in zip(
+        ks.place_spheres(np.full(count, 0.5), ((0, 0, 0), (8, 8, 8)), seed=4), random.normal(size=(count, 3))
+    ):
+        game.add_rigid_body([ks.Ball((0, 0, 0), 0.5)], position, velocity)
+    return game
+
+
+def test_rough_balls_share_their_energy_with_rotation() -> None:
+    game = rough_gas()
+    start = np.sum(game.velocities**2)
+    game.step(10.0)
+    parts = []
+    for _ in range(100):
+        game.step(4.0)
+        parts.append((np.sum(game.velocities**2), 0.4 * 0.25 * np.sum(game.rotations(game.ids)[1] ** 2)))
+    flying, turning = np.mean(parts, axis=0)
+    assert np.sum(parts, axis=1) == pytest.approx(start, rel=1e-10)
+    assert turning / flying == pytest.approx(1.0, abs=0.06)
+
+
+def test_a_rough_bounce_of_one_contact() -> None:
+    game = ks.GameWorld()
+    for side in (-1, 1):
+        game.add_rigid_body([ks.Ball((0, 0, 0), 0.5)], (2 * side, 0.2 * side, 0), (-side, 0, 0))
+    event = game.advance(5.0)
+    assert event is not None
+    (velocity, spin), _ = ks.bounce_rigid(event, ks.Roughness())
+    assert velocity is not None and spin is not None
+    assert spin[2] != 0 and np.sum(velocity**2) + 0.1 * np.sum(spin**2) == pytest.approx(1.0, abs=1e-12)
+    smooth = ks.Roughness(tangential_restitution=-1.0)
+    first, second = ks.bounce_rigid(event, smooth)[0][0], ks.bounce_rigid(event, 1.0)[0][0]
+    assert np.array_equal(np.asarray(first), np.asarray(second))
+    assert repr(pickle.loads(pickle.dumps(smooth))) == repr(smooth)
+    for wrong in ({"restitution": 2}, {"tangential_restitution": -2}, {"friction": -1}, {"inertia": 0}):
+        with pytest.raises(ks.InvalidValue, match=f"Roughness: {next(iter(wrong))} must"):
+            ks.Roughness(**wrong)

@@ -38,7 +38,7 @@ def arguments_at_runtime(function: Any) -> list[tuple[str, bool]]:
     if "(" not in signature or "Overloaded" in (function.__doc__ or ""):
         return []
     inside = signature[signature.index("(") + 1 : signature.rindex(")")]
-    found = [part for part in parts(inside) if part and part != "*" and not part.startswith("self")]
+    found = [part for part in parts(inside) if part and part[0] != "*" and not part.startswith("self")]
     names = [(part.split(":")[0].strip(), "=" in part) for part in found]
     return [] if any(name.startswith("arg") and name[3:].isdigit() for name, _ in names) else names
 

@@ -91,8 +91,14 @@ pub struct Ray {
 /// half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    Ball { centre: Vec3, radius: f64 },
-    HalfSpace { normal: Vec3, offset: f64 },
+    Ball {
+        centre: Vec3,
+        radius: f64,
+    },
+    HalfSpace {
+        normal: Vec3,
+        offset: f64,
+    },
     Box(Box3),
     Triangle([Vec3; 3]),
     /// Made by [`Mesh::shape`].

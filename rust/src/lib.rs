@@ -34,9 +34,9 @@ mod answers;
 mod bodies;
 mod error;
 mod events;
+mod game;
 mod geometry;
 mod monitor;
-mod profiling;
 mod recording;
 #[rustfmt::skip]
 mod records;
@@ -45,7 +45,8 @@ mod world;
 pub use answers::{Answers, Choice};
 pub use bodies::{RigidDefinition, StaticDefinition};
 pub use error::{Error, Result};
-pub use events::{EventHash, Response};
+pub use events::{EventHash, Response, StepPotential, StepPotentialDefinition};
+pub use game::{GameResponse, GameWorld};
 pub use geometry::{
     BodyId, Box3, Mesh, Quaternion, Ray, RigidHull, RigidPart, Rotation, Shape, Sphere, State, Vec3,
 };

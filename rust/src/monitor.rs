@@ -2,8 +2,8 @@
 use crate::error::{check, filled, Guarded, Result};
 use crate::geometry::Vec3;
 use crate::records::{
-    MonitorDefinition, MonitorEvent, OpenPair, PairAnswer, PredictedPair, ReportRequest, TrackClass, TrackPlace,
-    TrackReport,
+    MonitorDefinition, MonitorEvent, OpenPair, PairAnswer, PredictedPair, ReportRequest, TrackClass,
+    TrackPlace, TrackReport,
 };
 use crate::sys;
 use std::os::raw::c_void;
@@ -26,7 +26,9 @@ impl ErrorBound {
     }
     pub(crate) fn raw(self) -> sys::ks_error_bound {
         match self {
-            ErrorBound::Ball(radius) => sys::ks_error_bound { kind: sys::KS_BOUND_BALL, horizontal: radius, vertical: radius },
+            ErrorBound::Ball(radius) => {
+                sys::ks_error_bound { kind: sys::KS_BOUND_BALL, horizontal: radius, vertical: radius }
+            }
             ErrorBound::Cylinder { horizontal, vertical } => {
                 sys::ks_error_bound { kind: sys::KS_BOUND_CYLINDER, horizontal, vertical }
             }

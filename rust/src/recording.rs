@@ -1,11 +1,27 @@
-//! Recordings of worlds, and their replays.
+//! Recordings of worlds and their replays, and where the time of a world goes.
 use crate::error::{check, filled, Result};
-use crate::records::Event;
+use crate::records::{BusyBody, Event, Timings};
 use crate::sys;
 use crate::world::World;
 use std::ptr;
 
 impl World {
+    /// Switches profiling on, from zero, or off.
+    pub fn set_profiling(&mut self, on: bool) -> Result<()> {
+        check(unsafe { sys::ks_world_set_profiling(self.handle, on.into()) })
+    }
+    pub fn timings(&self) -> Result<Timings> {
+        let mut raw = sys::ks_timings::default();
+        check(unsafe { sys::ks_world_timings(self.handle, &mut raw) })?;
+        Ok(Timings::of(&raw))
+    }
+    /// The bodies that were probed most often, at most `most`, the most probed first.
+    pub fn busiest(&self, most: usize) -> Result<Vec<BusyBody>> {
+        let found: Vec<sys::ks_busy_body> = filled(|bodies, capacity, count| unsafe {
+            sys::ks_world_busiest(self.handle, most, bodies, capacity, count)
+        })?;
+        Ok(found.iter().map(BusyBody::of).collect())
+    }
     /// Starts to record all input and output of the world, in memory.
     pub fn start_recording(&mut self) -> Result<()> {
         check(unsafe { sys::ks_world_start_recording(self.handle) })

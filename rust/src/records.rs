@@ -9,7 +9,7 @@ use std::fmt;
 /// Which contact events bodies ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Contacts {
-    /// A begin whenever two touch and approach, and no ends.
+    /// A begin whenever two touch and approach, or are put into each other, and no ends.
     Impacts = 1,
     /// One begin and one end for each contact.
     BeginAndEnd = 2,
@@ -251,7 +251,8 @@ impl fmt::Display for MonitorEventKind {
 }
 
 /// Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other, unless
-/// both are in one group, which decides by its sign.
+/// both are in one group, which decides by its sign. A body without a filter of its own, as a floor, has the category
+/// 1: a mask without that bit lets its body fall through the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Filter {
     /// Default 1.
@@ -671,6 +672,49 @@ impl Event {
             acceleration_limit: raw.acceleration_limit,
             raw: *raw,
         })
+    }
+}
+
+/// How rough spheres or discs bounce: Walton's model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roughness {
+    /// In [0, 1], default 1: along the normal.
+    pub restitution: f64,
+    /// In [-1, 1], default 1: what is left of the tangential velocity of the surfaces in a contact that sticks,
+    /// turned back; -1 is smooth.
+    pub tangential_restitution: f64,
+    /// >= 0, default infinity: coefficient beyond which a contact slides.
+    pub friction: f64,
+    /// > 0, default 0.4: moment of inertia in units of mass and squared radius.
+    pub inertia: f64,
+}
+
+impl Roughness {
+    pub(crate) fn of(raw: &sys::ks_roughness) -> Roughness {
+        Roughness {
+            restitution: raw.restitution,
+            tangential_restitution: raw.tangential_restitution,
+            friction: raw.friction,
+            inertia: raw.inertia,
+        }
+    }
+    /// The record of C.
+    pub(crate) fn raw(&self) -> sys::ks_roughness {
+        sys::ks_roughness {
+            struct_size: std::mem::size_of::<sys::ks_roughness>() as u32,
+            reserved: Default::default(),
+            restitution: self.restitution,
+            tangential_restitution: self.tangential_restitution,
+            friction: self.friction,
+            inertia: self.inertia,
+        }
+    }
+}
+
+/// The defaults of the library.
+impl Default for Roughness {
+    fn default() -> Roughness {
+        Roughness::of(&sys::ks_roughness::new())
     }
 }
 

@@ -393,12 +393,69 @@ pub struct ks_response {
     pub second_velocity: Vec3,
     pub first_angular_velocity: Vec3,
     pub second_angular_velocity: Vec3,
+    pub turned_back: i32,
+    pub sets_pair_state: i32,
+    pub pair_state: i32,
+    pub reserved: i32,
 }
 
 impl ks_response {
     /// All zeros, with its size: to be filled.
     pub fn new() -> Self {
         Self { struct_size: std::mem::size_of::<Self>() as u32, ..Default::default() }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ks_roughness {
+    pub struct_size: u32,
+    pub reserved: i32,
+    pub restitution: f64,
+    pub tangential_restitution: f64,
+    pub friction: f64,
+    pub inertia: f64,
+}
+
+impl ks_roughness {
+    /// The defaults of the library.
+    pub fn new() -> Self {
+        let mut made = std::mem::MaybeUninit::<Self>::zeroed();
+        // It fails for a library with another layout only, and then leaves the size 0, which is refused.
+        unsafe {
+            ks_roughness_init(made.as_mut_ptr(), std::mem::size_of::<Self>() as u32);
+            made.assume_init()
+        }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ks_step_potential {
+    pub value: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct ks_step_potential_definition {
+    pub struct_size: u32,
+    pub reserved: i32,
+    pub count: usize,
+    pub distances: *const f64,
+    pub energies: *const f64,
+    pub outside: f64,
+    pub restitution: f64,
+}
+
+impl ks_step_potential_definition {
+    /// The defaults of the library.
+    pub fn new() -> Self {
+        let mut made = std::mem::MaybeUninit::<Self>::zeroed();
+        // It fails for a library with another layout only, and then leaves the size 0, which is refused.
+        unsafe {
+            ks_step_potential_definition_init(made.as_mut_ptr(), std::mem::size_of::<Self>() as u32);
+            made.assume_init()
+        }
     }
 }
 
@@ -432,6 +489,46 @@ impl ks_run_definition {
             made.assume_init()
         }
     }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct ks_game_definition {
+    pub struct_size: u32,
+    pub reserved: i32,
+    pub gravity: Vec3,
+    pub restitution: f64,
+    pub resting_speed: f64,
+    pub respond: Option<ks_respond>,
+    pub respond_user: *mut c_void,
+}
+
+impl ks_game_definition {
+    /// The defaults of the library.
+    pub fn new() -> Self {
+        let mut made = std::mem::MaybeUninit::<Self>::zeroed();
+        // It fails for a library with another layout only, and then leaves the size 0, which is refused.
+        unsafe {
+            ks_game_definition_init(made.as_mut_ptr(), std::mem::size_of::<Self>() as u32);
+            made.assume_init()
+        }
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct ks_event_list {
+    pub count: usize,
+    pub events: *const ks_event,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct ks_body_list {
+    pub count: usize,
+    pub ids: *const BodyId,
+    pub positions: *const Vec3,
+    pub velocities: *const Vec3,
 }
 
 #[repr(C)]
@@ -712,9 +809,15 @@ const _: () = {
     assert!(std::mem::size_of::<ks_timings>() == 24);
     assert!(std::mem::size_of::<ks_busy_body>() == 88);
     assert!(std::mem::size_of::<ks_event>() == 400);
-    assert!(std::mem::size_of::<ks_response>() == 128);
+    assert!(std::mem::size_of::<ks_response>() == 144);
+    assert!(std::mem::size_of::<ks_roughness>() == 40);
+    assert!(std::mem::size_of::<ks_step_potential>() == 8);
+    assert!(std::mem::size_of::<ks_step_potential_definition>() == 48);
     assert!(std::mem::size_of::<ks_event_hash>() == 16);
     assert!(std::mem::size_of::<ks_run_definition>() == 56);
+    assert!(std::mem::size_of::<ks_game_definition>() == 64);
+    assert!(std::mem::size_of::<ks_event_list>() == 16);
+    assert!(std::mem::size_of::<ks_body_list>() == 32);
     assert!(std::mem::size_of::<ks_motion_definition>() == 104);
     assert!(std::mem::size_of::<ks_prediction>() == 32);
     assert!(std::mem::size_of::<ks_hit>() == 32);
@@ -801,6 +904,13 @@ extern "C" {
     pub fn ks_probe_reason_advice(reason: i32) -> *const c_char;
     pub fn ks_event_kind_name(kind: i32) -> *const c_char;
     pub fn ks_bounce(event: *const ks_event, restitution: f64, resting_speed: f64, response: *mut ks_response) -> ks_status;
+    pub fn ks_roughness_init(roughness: *mut ks_roughness, struct_size: u32) -> ks_status;
+    pub fn ks_bounce_rough(event: *const ks_event, roughness: *const ks_roughness, response: *mut ks_response) -> ks_status;
+    pub fn ks_step_potential_definition_init(definition: *mut ks_step_potential_definition, struct_size: u32) -> ks_status;
+    pub fn ks_step_potential_create(world: ks_world, definition: *const ks_step_potential_definition, potential: *mut ks_step_potential) -> ks_status;
+    pub fn ks_step_potential_destroy(potential: ks_step_potential) -> ks_status;
+    pub fn ks_step_potential_respond(potential: ks_step_potential, event: *const ks_event, response: *mut ks_response) -> ks_status;
+    pub fn ks_step_potential_energy(potential: ks_step_potential, gap: f64, energy: *mut f64) -> ks_status;
     pub fn ks_event_hash_add(hash: *mut ks_event_hash, event: *const ks_event) -> ks_status;
     pub fn ks_event_hash_value(hash: *const ks_event_hash, value: *mut u64) -> ks_status;
     pub fn ks_world_set_pair_state(world: ks_world, first: BodyId, second: BodyId, state: i32) -> ks_status;
@@ -812,6 +922,17 @@ extern "C" {
     pub fn ks_world_advance(world: ks_world, until: f64, probe: Option<ks_probe>, user: *mut c_void, event: *mut ks_event) -> ks_status;
     pub fn ks_run_definition_init(definition: *mut ks_run_definition, struct_size: u32) -> ks_status;
     pub fn ks_world_run(world: ks_world, until: f64, definition: *const ks_run_definition) -> ks_status;
+    pub fn ks_game_definition_init(definition: *mut ks_game_definition, struct_size: u32) -> ks_status;
+    pub fn ks_game_create(world: *const ks_world_definition, definition: *const ks_game_definition, game: *mut ks_world) -> ks_status;
+    pub fn ks_game_restore(bytes: *const u8, count: usize, definition: *const ks_game_definition, filter: Option<ks_pair_filter>, user: *mut c_void, game: *mut ks_world) -> ks_status;
+    pub fn ks_game_step(game: ks_world, dt: f64, happened: *mut ks_event_list) -> ks_status;
+    pub fn ks_game_bodies(game: ks_world, found: *mut ks_body_list) -> ks_status;
+    pub fn ks_game_index_of(game: ks_world, body: BodyId, index: *mut usize) -> ks_status;
+    pub fn ks_game_set_response(game: ks_world, definition: *const ks_game_definition) -> ks_status;
+    pub fn ks_game_set_velocities(game: ks_world, velocities: *const Vec3, count: usize) -> ks_status;
+    pub fn ks_game_set_acceleration(game: ks_world, body: BodyId, acceleration: Vec3) -> ks_status;
+    pub fn ks_game_set_gravity(game: ks_world, gravity: Vec3) -> ks_status;
+    pub fn ks_game_gravity(game: ks_world, gravity: *mut Vec3) -> ks_status;
     pub fn ks_motion_definition_init(definition: *mut ks_motion_definition, struct_size: u32) -> ks_status;
     pub fn ks_world_add_motion(world: ks_world, definition: *const ks_motion_definition, motion: *mut u32, ids: *mut BodyId) -> ks_status;
     pub fn ks_world_add_to_motion(world: ks_world, motion: u32, definition: *const ks_motion_definition, numbers: *mut u32, ids: *mut BodyId) -> ks_status;

@@ -90,15 +90,18 @@ pub enum Run<'a> {
     Respond(&'a (dyn Fn(&Event) -> Response + Sync)),
 }
 
-type PairFilter = Box<dyn Fn(BodyId, BodyId) -> bool + Send + Sync>;
+pub(crate) type GameFunction = Box<dyn Fn(&Event) -> Response + Send + Sync>;
+pub(crate) type PairFilter = Box<dyn Fn(BodyId, BodyId) -> bool + Send + Sync>;
 type RotationProbe = Box<dyn Fn(&[BodyId], f64, &mut [Rotation]) + Send + Sync>;
 
 /// A world of moving spheres. Methods have the meanings, errors and costs of those of `World` in C++.
 pub struct World {
     pub(crate) handle: sys::ks_world,
     /// Keep alive what the library has a pointer to; clones share them.
-    filter: Option<Arc<Guarded<PairFilter>>>,
+    pub(crate) filter: Option<Arc<Guarded<PairFilter>>>,
     rotations: Option<Arc<Guarded<RotationProbe>>>,
+    /// Of a game.
+    pub(crate) respond: Option<Arc<Guarded<GameFunction>>>,
 }
 
 impl Drop for World {
@@ -106,7 +109,7 @@ impl Drop for World {
         // It fails only if the function that `run` lent the world replaced it: the run still needs it, and may still
         // call what it has a pointer to.
         if unsafe { sys::ks_world_destroy(self.handle) } != 0 {
-            std::mem::forget((self.filter.take(), self.rotations.take()));
+            std::mem::forget((self.filter.take(), self.rotations.take(), self.respond.take()));
         }
     }
 }
@@ -123,7 +126,7 @@ unsafe extern "C" fn probe<F: FnMut(&[BodyId], f64, &mut [State])>(
     })
 }
 
-unsafe extern "C" fn respond<F: Fn(&Event) -> Response + Sync>(
+pub(crate) unsafe extern "C" fn respond<F: Fn(&Event) -> Response + Sync>(
     event: *const sys::ks_event,
     response: *mut sys::ks_response,
     user: *mut c_void,
@@ -143,7 +146,7 @@ unsafe extern "C" fn sink<F: FnMut(&Event)>(event: *const sys::ks_event, user: *
     })
 }
 
-unsafe extern "C" fn pair_filter(first: BodyId, second: BodyId, user: *mut c_void) -> i32 {
+pub(crate) unsafe extern "C" fn pair_filter(first: BodyId, second: BodyId, user: *mut c_void) -> i32 {
     let mut passes = true;
     Guarded::<PairFilter>::call_shared(user, |filter| passes = filter(first, second));
     passes as i32
@@ -164,7 +167,7 @@ unsafe extern "C" fn rotation_probe(
 
 impl World {
     pub(crate) fn of(handle: sys::ks_world) -> World {
-        World { handle, filter: None, rotations: None }
+        World { handle, filter: None, rotations: None, respond: None }
     }
     /// The handle of C, for calls of [`crate::sys`]; the world still owns it.
     pub fn handle(&self) -> sys::ks_world {
@@ -185,6 +188,9 @@ impl World {
         if let Some(rotations) = &self.rotations {
             rotations.resume();
         }
+        if let Some(respond) = &self.respond {
+            respond.resume();
+        }
     }
 
     pub fn new(definition: &WorldDefinition) -> Result<World> {
@@ -197,7 +203,8 @@ impl World {
     pub fn try_clone(&self) -> Result<World> {
         let mut handle = sys::ks_world { value: 0 };
         check(unsafe { sys::ks_world_clone(self.handle, &mut handle) })?;
-        Ok(World { handle, filter: self.filter.clone(), rotations: self.rotations.clone() })
+        let (filter, rotations) = (self.filter.clone(), self.rotations.clone());
+        Ok(World { handle, filter, rotations, respond: self.respond.clone() })
     }
 
     /// Returns a snapshot, without motions and pair filter.
@@ -224,7 +231,7 @@ impl World {
         check(unsafe {
             sys::ks_world_restore(snapshot.as_ptr(), snapshot.len(), Some(pair_filter), user, &mut handle)
         })?;
-        Ok(World { handle, filter: Some(filter), rotations: None })
+        Ok(World { handle, filter: Some(filter), rotations: None, respond: None })
     }
 
     pub fn add(&mut self, body: &BodyDefinition) -> Result<BodyId> {
@@ -347,6 +354,12 @@ impl World {
         }
         if let (Some(body), Some(spin)) = (event.second, response.second_angular_velocity) {
             self.set_angular_velocity(body, spin)?;
+        }
+        if response.turned_back {
+            self.turn_back(event)?;
+        }
+        if let (Some(second), Some(state)) = (event.second, response.pair_state) {
+            self.set_pair_state(event.first, second, state)?;
         }
         self.act(event.first, response.first_action)?;
         event.second.map_or(Ok(()), |body| self.act(body, response.second_action))

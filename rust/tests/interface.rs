@@ -319,7 +319,8 @@ fn responses_remove_disable_put_to_sleep_and_stop() {
 fn walls_with_a_filter_let_a_ball_pass() {
     let walls = Filter { category: 2, ..Default::default() };
     let bounds = Some(Box3 { lower: Vec3::default(), upper: Vec3::new(20.0, 20.0, 20.0) });
-    let mut world = World::new(&WorldDefinition { bounds, wall_filter: Some(walls), ..Default::default() }).unwrap();
+    let mut world =
+        World::new(&WorldDefinition { bounds, wall_filter: Some(walls), ..Default::default() }).unwrap();
     let start = [State { position: Vec3::new(10.0, 10.0, 10.0), velocity: Vec3::new(1.0, 0.0, 0.0) }];
     let like = BodyDefinition { filter: Filter { mask: 1, ..Default::default() }, ..Default::default() };
     let ballistic = Motion::Ballistic { gravity: Vec3::default() };
@@ -557,4 +558,151 @@ fn a_monitor_polls() {
 #[test]
 fn the_crate_has_the_version_of_the_library() {
     assert_eq!(version(), env!("CARGO_PKG_VERSION"));
+}
+
+fn new_game(response: GameResponse) -> (GameWorld, BodyId) {
+    let bounds = Some(Box3 { lower: Vec3::default(), upper: Vec3::new(10.0, 10.0, 10.0) });
+    let room = WorldDefinition { bounds, contacts: Contacts::Impacts, ..Default::default() };
+    let mut game = GameWorld::new(&room, Vec3::new(0.0, 0.0, -10.0), response).unwrap();
+    let position = Vec3::new(5.0, 5.0, 5.0);
+    let ball = game.add(&BodyDefinition { radius: 0.5, position, ..Default::default() }).unwrap();
+    (game, ball)
+}
+
+#[test]
+fn a_game_moves_its_bodies() {
+    let (mut game, ball) = new_game(GameResponse::Settle { restitution: 0.5, resting_speed: 0.1 });
+    assert!(game.step(0.5).unwrap().is_empty());
+    assert_eq!((game.ids(), game.velocities()), (&[ball][..], &[Vec3::new(0.0, 0.0, -5.0)][..]));
+    assert!((game.positions()[0].z - 3.75).abs() < 1e-12);
+    let other = game.add(&BodyDefinition { radius: 0.5, ..Default::default() }).unwrap();
+    game.remove(ball).unwrap();
+    assert_eq!((game.ids(), game.index_of(other).unwrap(), game.len()), (&[other][..], 0, 1));
+    game.set_gravity(Vec3::default()).unwrap();
+    game.set_all_velocities(&[Vec3::new(0.0, 1.0, 0.0)]).unwrap();
+    game.set_acceleration(other, Vec3::new(0.0, 0.0, 4.0)).unwrap();
+    let mut copy = game.try_clone().unwrap();
+    copy.set_response(GameResponse::Respond(Box::new(|event| event.bounce(1.0).unwrap()))).unwrap();
+    let mut saved = GameWorld::restore(&game.save().unwrap(), GameResponse::PassThrough, None).unwrap();
+    for one in [&mut game, &mut copy, &mut saved] {
+        one.step(0.5).unwrap();
+        assert_eq!(one.velocities(), [Vec3::new(0.0, 1.0, 2.0)]);
+        assert_eq!(one.gravity().unwrap(), Vec3::default());
+    }
+}
+
+#[test]
+fn a_response_answers_the_events_of_a_game() {
+    let calls = Arc::new(AtomicUsize::new(0));
+    let counted = calls.clone();
+    let (mut game, ball) = new_game(GameResponse::Respond(Box::new(move |event| {
+        let first_action = BodyAction::Remove;
+        match counted.fetch_add(1, Ordering::Relaxed) {
+            0 => event.bounce(1.0).unwrap(),
+            1 => panic!("a slip of the pen"),
+            _ => Response { first_action, ..Default::default() },
+        }
+    })));
+    let event = game.advance(2.0).unwrap().unwrap();
+    assert_eq!((event.kind, event.first, event.wall), (EventKind::WallBegin, ball, Some(Wall::ZLower)));
+    assert_eq!(game.time(), event.time);
+    assert!(game.velocities()[0].z > 0.0);
+    assert!(game.advance(2.0).unwrap().is_none());
+    let panic = catch_unwind(AssertUnwindSafe(|| game.step(2.0).map(<[Event]>::len))).unwrap_err();
+    assert_eq!(panic.downcast_ref::<&str>(), Some(&"a slip of the pen"));
+    assert_eq!(game.step(2.0).unwrap().len(), 1);
+    assert!(game.ids().is_empty() && calls.load(Ordering::Relaxed) >= 3);
+}
+
+#[test]
+fn wrong_use_of_games_is_told() {
+    let (mut game, ball) = new_game(GameResponse::PassThrough);
+    let name = |error: Error| (error.name, error.argument);
+    let said = |name: &'static str, argument: &str| (name, argument.to_string());
+    let nan = Vec3::new(f64::NAN, 0.0, 0.0);
+    assert_eq!(name(game.step(f64::NAN).unwrap_err()), said("not_finite", "dt"));
+    assert_eq!(name(game.set_all_velocities(&[]).unwrap_err()), said("out_of_range", "velocities"));
+    let error = game.set_all_velocities(&[nan]).unwrap_err();
+    assert_eq!((error.name, error.body), ("not_finite", Some(ball)));
+    assert_eq!(game.set_motion_limits(ball, &MotionLimits::default()).unwrap_err().name, "unsupported");
+    let still = |_: &[BodyId], _: f64, _: &mut [State]| {};
+    assert_eq!(World::advance(&mut game, 1.0, still).unwrap_err().name, "unsupported");
+    game.remove(ball).unwrap();
+    assert_eq!(game.index_of(ball).unwrap_err().name, "stale_body");
+    assert_eq!(game.set_velocity(ball, nan).unwrap_err().name, "stale_body");
+    let bouncing = GameResponse::Bounce { restitution: 2.0 };
+    let error = GameWorld::new(&WorldDefinition::default(), Vec3::default(), bouncing).err().unwrap();
+    assert_eq!(name(error), said("out_of_range", "restitution"));
+    // Another world in the place of the game is noticed, and is no game.
+    *game = World::new(&WorldDefinition::default()).unwrap();
+    assert_eq!(game.step(1.0).unwrap_err().name, "unsupported");
+}
+
+/// A world of two balls of radius 1/2 and mass 1 with this gap, which fly towards each other at this speed.
+fn head_on(gap: f64, speed: f64) -> (World, [BodyId; 2]) {
+    let mut world =
+        World::new(&WorldDefinition { contacts: Contacts::Impacts, ..Default::default() }).unwrap();
+    let at = |x: f64, v: f64| State { position: Vec3::new(x, 0.0, 0.0), velocity: Vec3::new(v, 0.0, 0.0) };
+    let start = [at(-0.5 - gap / 2.0, speed / 2.0), at(0.5 + gap / 2.0, -speed / 2.0)];
+    let gravity = Vec3::default();
+    let (radii, like) = ([0.5; 2], BodyDefinition::default());
+    let (_, ids) = world.add_motion(Motion::Ballistic { gravity }, &start, &radii, &[], &like).unwrap();
+    world.set_sensor(0, &[0.5], u64::MAX).unwrap();
+    (world, [ids[0], ids[1]])
+}
+
+#[test]
+fn a_well_speeds_up_and_holds_back() {
+    let (mut world, ids) = head_on(2.0, 1.0);
+    let definition = StepPotentialDefinition { distances: &[0.5], energies: &[-1.0], ..Default::default() };
+    let well = StepPotential::new(&world, &definition).unwrap();
+    assert_eq!((well.energy(0.4), well.energy(0.6)), (-1.0, 0.0));
+    let respond = |event: &Event| well.respond(event).unwrap();
+    world
+        .run(1.6, Run::Respond(&respond), 2, |_, event| assert_eq!(event.kind, EventKind::SensorEnter))
+        .unwrap();
+    let states = world.states(&ids, 1.6).unwrap();
+    let speed = states[0].velocity.x - states[1].velocity.x;
+    assert!((speed - 5.0_f64.sqrt()).abs() < 1e-12);
+
+    // Two that begin inside have not enough energy to leave, in a loop, too.
+    let (mut world, ids) = head_on(0.2, 1.0);
+    let mut turns = 0;
+    while let Some(event) = world.advance_motions(40.0).unwrap() {
+        let response = well.respond(&event).unwrap();
+        turns += response.turned_back as i32;
+        world.apply(&event, response).unwrap();
+    }
+    assert!((39..=41).contains(&turns) && world.sensor_overlaps(ids[0]).unwrap().len() == 1);
+    let wrong =
+        StepPotentialDefinition { distances: &[0.5, 0.4], energies: &[0.0, 1.0], ..Default::default() };
+    assert_eq!(StepPotential::new(&world, &wrong).unwrap_err().name, "out_of_range");
+}
+
+#[test]
+fn rough_balls_turn_each_other() {
+    let mut world = World::new(&WorldDefinition::default()).unwrap();
+    let part = RigidPart { a: Vec3::default(), b: Vec3::default(), radius: 0.5 };
+    let start = [-1.0, 1.0].map(|side| State {
+        position: Vec3::new(2.0 * side, 0.2 * side, 0.0),
+        velocity: Vec3::new(-side, 0.0, 0.0),
+    });
+    for state in start {
+        world.add_rigid_body(&state.into(), &RigidDefinition::new(vec![part])).unwrap();
+    }
+    let flight = |ids: &[BodyId], time: f64, states: &mut [State]| {
+        for (id, state) in ids.iter().zip(states) {
+            let from = start[id.index()];
+            *state = State { position: from.position + from.velocity * time, ..from };
+        }
+    };
+    let event = world.advance(5.0, flight).unwrap().unwrap();
+    let after = event.bounce_rough(&Roughness::default()).unwrap();
+    let square = |v: Vec3| v.x * v.x + v.y * v.y + v.z * v.z;
+    let (turning, flying) = (after.first_angular_velocity.unwrap(), after.first.unwrap());
+    assert!(turning.z != 0.0 && (square(flying) + 0.4 * 0.25 * square(turning) - 1.0).abs() < 1e-12);
+    let smooth = Roughness { tangential_restitution: -1.0, ..Default::default() };
+    assert_eq!(event.bounce_rough(&smooth).unwrap().first, event.bounce(1.0).unwrap().first);
+    let error = event.bounce_rough(&Roughness { friction: -1.0, ..Default::default() }).unwrap_err();
+    assert_eq!((error.name, error.argument.as_str()), ("out_of_range", "friction"));
 }

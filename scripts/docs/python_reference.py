@@ -19,12 +19,12 @@ import kinesphere
 
 page = Path(sys.argv[1])
 GROUPS = {
-    "Worlds": "World Event Events EventKind EventIterator EventHash BodyId Wall Senses Workers Counters BodyView BusyBody",
+    "Worlds": "World GameWorld Event Events EventKind EventIterator EventHash BodyId Wall Senses Workers Counters BodyView BusyBody",
     "Certified answers": "SafeTime SafeSeparation EarliestContact EarliestApproach DistanceLimits",
     "Shapes and starts": "Ball Box Capsule HalfSpace Hull Mesh Triangle place_spheres",
     "Motions": "Motion Ballistic RandomForces VelocityField Circulation RecordedTracks SteeredMotion FrameMotion"
     " MotionSource BodyMap",
-    "Responses": "Bouncing StepPotential bounce bounce_rigid settle least_resting_speed",
+    "Responses": "Bouncing Roughness StepPotential bounce bounce_rigid settle least_resting_speed",
     "Monitors": "Monitor TrackClass Separation SeparationRule ErrorBound Shard Verdict MonitorEvent MonitorEvents"
     " MonitorEventKind MonitorEventIterator PairAnswer TrackView TrackPlace MonitorCounters",
     "Recordings of motion, streams and known paths": "tracks tracks_in Approaches watch Alerts PolynomialPaths"

@@ -24,13 +24,15 @@ ContactRule::Change ContactRule::decide(const Threshold& threshold, double gap, 
                                         double approach_error) const {
   const bool ends = wants_ends(threshold.wanted);
   const bool approaches = is_approach(gap, approach_speed, approach_error);
-  if (!threshold.within) return gap <= tolerance_ && (ends || approaches) ? Change::begin : Change::none;
+  if (!threshold.within)
+    return gap <= tolerance_ && (ends || approaches || is_inside(gap)) ? Change::begin : Change::none;
   if (gap >= separation_distance_) return ends ? Change::end : Change::release;
   if (threshold.is_watched() && gap <= tolerance_ && approaches) return Change::begin;
   const bool may_pass = threshold.state.approach == ApproachState::reported ||
                         threshold.state.approach == ApproachState::ignored ||
                         (threshold.state.approach == ApproachState::turned && approaches);
-  return may_pass || ends || threshold.state.has_history() ? Change::none : Change::release;
+  const bool stays = may_pass || ends || threshold.state.has_history() || is_inside(gap);
+  return stays ? Change::none : Change::release;
 }
 
 double ContactRule::guarded_gap(double gap) const {

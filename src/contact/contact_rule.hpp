@@ -33,7 +33,7 @@ class ContactRule {
   explicit ContactRule(const WorldDefinition& definition);
 
   /// `release` is an end without an event: two bodies that ask for no ends have separated, or no longer
-  /// approach.
+  /// approach and are not inside each other.
   enum class Change { none, begin, end, release };
   /// Decides the change of a pair. `gap` is a length from the threshold's distance, speeds are length / time.
   /// `approach_error` bounds the rounding error of the approach speed (approach_error() in
@@ -45,6 +45,10 @@ class ContactRule {
   bool is_approach(double gap, double approach_speed, double approach_error) const {
     return approach_speed > (step_breaks_tolerance(gap) ? 0.0 : approach_error);
   }
+
+  /// True for two without a contact that lie so deep in each other as no motion brings them: one of the two
+  /// has been put there. That is a begin, whether they approach or not.
+  bool is_inside(double gap) const { return gap < -tolerance_; }
 
   /// Of a threshold at which two have been turned back: true if they are back where they came from, a gap of
   /// at most the tolerance from the distance or, if they came from outside, a larger one.

@@ -71,7 +71,8 @@ double PairCertifier::within_in_flight_until(std::uint32_t a, std::uint32_t b) c
       const bool is_near = pair.is_near(threshold.distance + tolerance);
       if (!is_near) return pair.meeting(infinity, threshold.distance + margin);
       const bool only_approaches = !threshold.sensed && !wants_ends(threshold.wanted);
-      return only_approaches && recede ? infinity : 0.0;
+      const bool may_be_inside = pair.is_near(threshold.distance - tolerance);
+      return only_approaches && recede && !may_be_inside ? infinity : 0.0;
     };
     first = std::min(first, std::max(rounding::sum_down(time_, stays_for()), time_));
   });
@@ -119,7 +120,8 @@ double PairCertifier::walls_unchanged_until(std::uint32_t number) const {
   Bound other = bodies()[b].bound;
   if (bodies().space().repeats())
     other.position += bodies().space().shift_to_nearest(other.centre_at(time_), bound.centre_at(time_));
-  return bodies().are_balls() && recede_for_good(bound, other, time_);
+  return bodies().are_balls() && recede_for_good(bound, other, time_) &&
+         !QuickReject(BoundAt(bound, time_), BoundAt(other, time_)).is_near(-contacts().rule().tolerance());
 }
 
 }  // namespace kinesphere

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Fails unless a program prints the expected hash, on each of its lines.
-# Usage: has_hash.sh <file with the hash> <command>...
+# Fails unless a program prints the expected hashes, each on one line or several, and nothing else.
+# Usage: has_hash.sh <file with the hashes, sorted> <command>...
 set -euo pipefail
 
 expected=$(<"$1")

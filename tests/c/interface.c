@@ -637,7 +637,8 @@ static void names(void) {
   CHECK(strcmp(ks_event_kind_name(KS_EVENT_BOUND_VIOLATION), "bound_violation") == 0);
   CHECK(strcmp(ks_event_kind_name(KS_EVENT_CONTACT_BEGIN), "contact_begin") == 0);
   CHECK(strcmp(ks_event_kind_name(KS_EVENT_WOKE), "woke") == 0);
-  CHECK(strcmp(ks_event_kind_name(10), "") == 0 && strcmp(ks_event_kind_name(-1), "") == 0);
+  CHECK(strcmp(ks_event_kind_name(10), "timer") == 0 && strcmp(ks_event_kind_name(11), "") == 0 &&
+        strcmp(ks_event_kind_name(-1), "") == 0);
   CHECK(strcmp(ks_monitor_event_kind_name(KS_MONITOR_VERDICT), "verdict") == 0);
   CHECK(strcmp(ks_monitor_event_kind_name(KS_MONITOR_RECLASSIFIED), "reclassified") == 0);
   CHECK(strcmp(ks_monitor_event_kind_name(10), "") == 0);
@@ -1055,6 +1056,198 @@ static void responses(void) {
   CHECK(hash != 0 && play_shooting(2) == hash);
 }
 
+// Potentials, and rough bounces.
+
+static int32_t respond_in_well(const ks_event* event, ks_response* response, void* user) {
+  return ks_step_potential_respond(*(const ks_step_potential*)user, event, response);
+}
+
+static void wells(void) {
+  const ks_world world = new_world();
+  const ks_state start[2] = {{vec3(-0.6, 0, 0), vec3(0.5, 0, 0)}, {vec3(0.6, 0, 0), vec3(-0.5, 0, 0)}};
+  const double radii[2] = {0.5, 0.5}, distance = 0.5, depth = -1;
+  ks_body_definition like = ks_default_body_definition();
+  like.contacts = KS_CONTACTS_IMPACTS;
+  ks_motion_definition motion = ks_default_motion_definition();
+  motion.count = 2;
+  motion.states = start;
+  motion.radii = radii;
+  motion.like = &like;
+  ks_body_id ids[2];
+  CHECK_OK(ks_world_add_motion(world, &motion, NULL, ids));
+  CHECK_OK(ks_world_set_sensor(world, 0, &distance, 1, UINT64_MAX));
+  ks_step_potential_definition definition = ks_default_step_potential_definition();
+  definition.count = 1;
+  definition.distances = &distance;
+  definition.energies = &depth;
+  ks_step_potential well;
+  CHECK_OK(ks_step_potential_create(world, &definition, &well));
+  double energy;
+  CHECK_OK(ks_step_potential_energy(well, 0.4, &energy));
+  CHECK(energy == -1);
+  ks_run_definition run = ks_default_run_definition();
+  run.respond = respond_in_well;
+  run.respond_user = &well;
+  CHECK_OK(ks_world_run(world, 20, &run));
+  // In a loop, too. They are turned back once in a unit of time.
+  int turns = 0;
+  ks_event event = ks_new_event();
+  for (;;) {
+    CHECK_OK(ks_world_advance(world, 40, ks_probe_motions, NULL, &event));
+    if (event.kind == KS_EVENT_NONE) break;
+    ks_response response = ks_new_response();
+    CHECK_OK(ks_step_potential_respond(well, &event, &response));
+    if (response.turns_first) CHECK_OK(ks_world_set_velocity(world, event.first, response.first_velocity));
+    if (response.turns_second) CHECK_OK(ks_world_set_velocity(world, event.second, response.second_velocity));
+    if (response.turned_back) CHECK_OK(ks_world_turn_back(world, &event));
+    turns += response.turned_back;
+    if (event.kind != KS_EVENT_CONTACT_BEGIN) continue;
+    ks_roughness smooth = ks_default_roughness();
+    smooth.tangential_restitution = -1;
+    ks_response rough = ks_new_response();
+    CHECK_OK(ks_bounce_rough(&event, &smooth, &rough));
+    CHECK(rough.turns_first && rough.first_velocity.x == response.first_velocity.x && !rough.spins_first);
+    smooth.friction = -1;
+    CHECK_STATUS(ks_bounce_rough(&event, &smooth, &rough), KS_ERROR_OUT_OF_RANGE);
+    // A program that was compiled earlier has a shorter record.
+    ks_response earlier = ks_new_response();
+    earlier.struct_size = (uint32_t)offsetof(ks_response, turned_back);
+    earlier.reserved = 77;
+    CHECK_OK(ks_bounce(&event, 1, 0, &earlier));
+    CHECK(earlier.reserved == 77 && earlier.first_velocity.x == response.first_velocity.x);
+  }
+  CHECK(19 <= turns && turns <= 21);
+  size_t count;
+  ks_sensor_overlap overlap;
+  CHECK_OK(ks_world_sensor_overlaps(world, ids[0], &overlap, 1, &count));
+  CHECK(count == 1);
+  definition.restitution = 2;
+  ks_step_potential wrong;
+  CHECK_STATUS(ks_step_potential_create(world, &definition, &wrong), KS_ERROR_OUT_OF_RANGE);
+  CHECK_OK(ks_step_potential_destroy(well));
+  CHECK_STATUS(ks_step_potential_energy(well, 0.4, &energy), KS_ERROR_STALE_HANDLE);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+// Games.
+
+static ks_world new_game(const ks_game_definition* definition) {
+  ks_world_definition room = ks_default_world_definition();
+  room.has_box = 1;
+  room.box.upper = vec3(10, 10, 10);
+  room.contacts = KS_CONTACTS_IMPACTS;
+  ks_world game;
+  CHECK_OK(ks_game_create(&room, definition, &game));
+  return game;
+}
+
+static ks_body_list bodies_of(ks_world game) {
+  ks_body_list bodies;
+  CHECK_OK(ks_game_bodies(game, &bodies));
+  return bodies;
+}
+
+static void games_of_bodies(void) {
+  ks_game_definition falling = ks_default_game_definition();
+  falling.gravity = vec3(0, 0, -10);
+  const ks_world game = new_game(&falling);
+  ks_body_definition balls[3];
+  ks_body_id ids[3], extra;
+  for (int k = 0; k < 3; ++k) {
+    balls[k] = ks_default_body_definition();
+    balls[k].radius = 0.5;
+    balls[k].position = vec3(2 + 3 * k, 5, 5);
+  }
+  CHECK_OK(ks_world_add(game, balls, 3, ids));
+  ks_event_list happened;
+  CHECK_OK(ks_game_step(game, 0.25, &happened));
+  CHECK(happened.count == 0);
+  ks_body_list bodies = bodies_of(game);
+  CHECK(bodies.count == 3 && ks_same_body(bodies.ids[2], ids[2]));
+  CHECK(fabs(bodies.positions[1].z - (5 - 0.3125)) < 1e-12 && fabs(bodies.velocities[1].z + 2.5) < 1e-12);
+  size_t place;
+  CHECK_OK(ks_world_remove(game, ids, 1));
+  CHECK_OK(ks_game_index_of(game, ids[2], &place));
+  CHECK(place == 0 && bodies_of(game).count == 2);
+  CHECK_STATUS(ks_game_index_of(game, ids[0], &place), KS_ERROR_STALE_BODY);
+
+  // All turn up; gravity changes; one burns against it.
+  const ks_vec3 up[2] = {vec3(0, 0, 1), vec3(0, 1, 0)};
+  CHECK_OK(ks_game_set_velocities(game, up, 2));
+  ks_vec3 gravity;
+  CHECK_OK(ks_game_set_gravity(game, vec3(0, 0, -2)));
+  CHECK_OK(ks_game_gravity(game, &gravity));
+  CHECK_OK(ks_game_set_acceleration(game, ids[1], vec3(0, 0, 2)));
+  CHECK_OK(ks_game_step(game, 0.5, &happened));
+  bodies = bodies_of(game);
+  CHECK(gravity.z == -2 && bodies.velocities[0].z == 0 && bodies.velocities[1].z == 0);
+
+  // The other calls of worlds change games, too.
+  const ks_state above = {vec3(5, 5, 8), vec3(0, 0, -3)};
+  CHECK_OK(ks_world_teleport(game, ids[1], &above));
+  CHECK_OK(ks_world_set_velocity(game, ids[2], vec3(1, 0, 0)));
+  CHECK_OK(ks_world_disable(game, ids[2]));
+  CHECK_OK(ks_world_enable(game, ids[2], &above));
+  CHECK_OK(ks_world_sleep(game, ids[2]));
+  CHECK_OK(ks_world_set_velocities(game, &ids[1], &up[1], 1));
+  bodies = bodies_of(game);
+  CHECK(bodies.positions[1].z == 8 && bodies.velocities[1].y == 1 && bodies.velocities[0].z == 0);
+  ks_hit hits[4];
+  size_t count;
+  CHECK_OK(ks_world_overlapping_sphere(game, vec3(5, 5, 8), 0.01, NULL, NULL, hits, 4, &count));
+  CHECK(count == 2 && hits[0].certain);
+  const ks_shape zone = ks_solid_box(vec3(0, 0, 0), vec3(10, 10, 1));
+  CHECK_OK(ks_world_add_zone(game, &zone, 0, &extra));
+  CHECK(bodies_of(game).count == 2);
+  CHECK_OK(ks_world_destroy(game));
+}
+
+static int32_t remove_what_falls(const ks_event* event, ks_response* response, void* user) {
+  ++*(int*)user;
+  if (event->kind == KS_EVENT_WALL_BEGIN) response->first_action = KS_ACTION_REMOVE;
+  return 0;
+}
+
+static void games_of_events(void) {
+  int calls = 0;
+  ks_game_definition falling = ks_default_game_definition();
+  falling.gravity = vec3(0, 0, -10);
+  const ks_world game = new_game(&falling);
+  falling.respond = remove_what_falls;
+  falling.respond_user = &calls;
+  ks_body_definition ball = ks_default_body_definition();
+  ball.radius = 0.5;
+  ball.position = vec3(5, 5, 5);
+  ks_body_id id;
+  CHECK_OK(ks_world_add(game, &ball, 1, &id));
+  char bytes[8192];
+  size_t size;
+  CHECK_OK(ks_world_save(game, bytes, sizeof bytes, &size));
+  ks_world copy, saved;
+  CHECK_OK(ks_world_clone(game, &copy));
+  CHECK_OK(ks_game_restore(bytes, size, &falling, NULL, NULL, &saved));
+
+  // Event by event, with the game at the event, after its response.
+  ks_event event = ks_new_event();
+  CHECK_OK(ks_world_advance(game, 2, ks_probe_motions, NULL, &event));
+  CHECK(event.kind == KS_EVENT_WALL_BEGIN && event.wall == KS_WALL_Z_LOWER);
+  CHECK(fabs(event.time - sqrt(0.9)) < 1e-5 && bodies_of(game).velocities[0].z > 0);
+  CHECK_OK(ks_world_advance(game, 2, ks_probe_motions, NULL, &event));
+  CHECK(event.kind == KS_EVENT_NONE && event.time == 2);
+  ks_event_list happened;
+  CHECK_OK(ks_game_step(copy, 2, &happened));
+  CHECK(happened.count == 1 && happened.events[0].kind == KS_EVENT_WALL_BEGIN);
+  CHECK(bodies_of(copy).positions[0].z == bodies_of(game).positions[0].z);
+  CHECK_OK(ks_game_set_response(copy, &falling));
+  CHECK_OK(ks_game_step(copy, 2, &happened));
+  CHECK(calls > 0 && bodies_of(copy).count == 0);
+  CHECK_OK(ks_game_step(saved, 2, &happened));
+  CHECK(happened.count == 1 && calls > 0 && bodies_of(saved).count == 0);
+  CHECK_OK(ks_world_destroy(copy));
+  CHECK_OK(ks_world_destroy(saved));
+  CHECK_OK(ks_world_destroy(game));
+}
+
 int main(void) {
   contacts_and_velocities();
   timers_and_states_of_pairs();
@@ -1080,6 +1273,9 @@ int main(void) {
   status_names();
   monitors();
   predictions_and_shards();
+  wells();
+  games_of_bodies();
+  games_of_events();
   puts("all parts of the interface work");
   return 0;
 }

@@ -80,6 +80,25 @@ static void rigid_definition(void) {
   CHECK(made.hulls == NULL);
 }
 
+static void roughness(void) {
+  const ks_roughness made = ks_default_roughness();
+  CHECK(made.reserved == 0);
+  CHECK(made.restitution == 1);
+  CHECK(made.tangential_restitution == 1);
+  CHECK(made.friction == INFINITY);
+  CHECK(made.inertia == 0.4);
+}
+
+static void step_potential_definition(void) {
+  const ks_step_potential_definition made = ks_default_step_potential_definition();
+  CHECK(made.reserved == 0);
+  CHECK(made.count == 0);
+  CHECK(made.distances == NULL);
+  CHECK(made.energies == NULL);
+  CHECK(made.outside == 0);
+  CHECK(made.restitution == 1);
+}
+
 static void run_definition(void) {
   const ks_run_definition made = ks_default_run_definition();
   CHECK(made.threads == 1);
@@ -89,6 +108,18 @@ static void run_definition(void) {
   CHECK(made.respond_user == NULL);
   CHECK(made.sink == 0);
   CHECK(made.sink_user == NULL);
+}
+
+static void game_definition(void) {
+  const ks_game_definition made = ks_default_game_definition();
+  CHECK(made.reserved == 0);
+  CHECK(made.gravity.x == 0);
+  CHECK(made.gravity.y == 0);
+  CHECK(made.gravity.z == 0);
+  CHECK(made.restitution == 1);
+  CHECK(made.resting_speed == 0);
+  CHECK(made.respond == 0);
+  CHECK(made.respond_user == NULL);
 }
 
 static void motion_definition(void) {
@@ -163,7 +194,10 @@ int main(void) {
   body_definition();
   static_definition();
   rigid_definition();
+  roughness();
+  step_potential_definition();
   run_definition();
+  game_definition();
   motion_definition();
   monitor_definition();
   track_report();

@@ -1,4 +1,4 @@
-// The scene of tests/same_hash/shared_scene.cpp in C, run in three ways. Each prints its hash.
+// The scene of tests/same_hash/shared_scene.cpp in C, run in three ways, and the game. Each prints its hash.
 #include "check.h"
 
 #include <inttypes.h>
@@ -75,6 +75,60 @@ static void at_once(ks_world world, int32_t threads) {
   print_and_destroy(world, &hash);
 }
 
+static ks_body_list bodies_of(ks_world game) {
+  ks_body_list bodies;
+  CHECK_OK(ks_game_bodies(game, &bodies));
+  return bodies;
+}
+
+static void turn_all(ks_world game) {
+  const ks_body_list bodies = bodies_of(game);
+  ks_vec3 turned[balls];
+  for (size_t k = 0; k < bodies.count; ++k)
+    turned[k] = vec3(bodies.velocities[k].y, bodies.velocities[k].z, bodies.velocities[k].x);
+  CHECK_OK(ks_game_set_velocities(game, turned, bodies.count));
+}
+
+static void play(void) {
+  ks_world_definition room = ks_default_world_definition();
+  room.has_box = 1;
+  room.box.upper = vec3(10, 10, 10);
+  ks_game_definition definition = ks_default_game_definition();
+  definition.gravity = vec3(0, 0, -9.81);
+  definition.restitution = 0.9;
+  ks_world game;
+  CHECK_OK(ks_game_create(&room, &definition, &game));
+  ks_static_definition block = ks_default_static_definition();
+  block.shape = ks_solid_box(vec3(4, 4, 0), vec3(6, 6, 1));
+  ks_body_id id;
+  CHECK_OK(ks_world_add_static(game, &block, 1, &id));
+  for (int k = 0; k < 27; ++k) {
+    ks_body_definition ball = ks_default_body_definition();
+    ball.mass = ball.radius = 0.3 + 0.5 * next_number();
+    ball.position = vec3(2 + k % 3 * 3.0, 2 + k / 3 % 3 * 3.0, 2 + k / 9 * 3.0);
+    ball.velocity.x = 10.0 * (next_number() - 0.5);
+    ball.velocity.y = 10.0 * (next_number() - 0.5);
+    ball.velocity.z = 10.0 * (next_number() - 0.5);
+    CHECK_OK(ks_world_add(game, &ball, 1, &id));
+  }
+  ks_event_hash hash = {0, 0};
+  for (int frame = 0; frame < 128; ++frame) {
+    if (frame % 16 == 0) turn_all(game);
+    if (frame == 32) CHECK_OK(ks_world_remove(game, &bodies_of(game).ids[3], 1));
+    if (frame == 64) {
+      ks_body_definition ball = ks_default_body_definition();
+      ball.radius = 0.25;
+      ball.position = vec3(5, 5, 9.5);
+      CHECK_OK(ks_world_add(game, &ball, 1, &id));
+    }
+    if (frame == 96) CHECK_OK(ks_game_set_acceleration(game, bodies_of(game).ids[0], vec3(0, 0, 20)));
+    ks_event_list happened;
+    CHECK_OK(ks_game_step(game, 0.015625, &happened));
+    for (size_t k = 0; k < happened.count; ++k) CHECK_OK(ks_event_hash_add(&hash, &happened.events[k]));
+  }
+  print_and_destroy(game, &hash);
+}
+
 int main(void) {
   ks_state start[balls];
   double radii[balls];
@@ -88,5 +142,6 @@ int main(void) {
   step_by_step(make_world(start, radii));
   at_once(make_world(start, radii), 1);
   at_once(make_world(start, radii), 2);
+  play();
   return 0;
 }

@@ -623,6 +623,89 @@ static void wrong_monitors(void) {
   CHECK_OK(ks_monitor_destroy(monitor));
 }
 
+static int32_t step_inside(const ks_event* event, ks_response* response, void* user) {
+  (void)event, (void)response;
+  game* const g = (game*)user;
+  ks_event_list happened;
+  g->inside = ks_game_step(g->world, 1.0, &happened);
+  g->elsewhere = ks_world_destroy(g->world);
+  return -5;
+}
+
+static void wrong_games(ks_world world) {
+  game g;
+  ks_world_definition room = ks_default_world_definition();
+  room.has_box = 1;
+  room.box.upper = vec3(10, 10, 10);
+  ks_game_definition falling = ks_default_game_definition();
+  falling.gravity.z = NAN;
+  REFUSED(ks_game_create(&room, &falling, &g.world), NOT_FINITE);
+  falling.gravity.z = -10;
+  falling.restitution = 2;
+  REFUSED(ks_game_create(&room, &falling, &g.world), OUT_OF_RANGE);
+  falling.restitution = 1;
+  falling.struct_size = 5;
+  REFUSED(ks_game_create(&room, &falling, &g.world), BAD_STRUCT);
+  falling = ks_default_game_definition();
+  falling.gravity.z = -10;
+  falling.respond = step_inside;
+  falling.respond_user = &g;
+  REFUSED(ks_game_create(&room, NULL, &g.world), NULL_ARGUMENT);
+  CHECK_OK(ks_game_create(&room, &falling, &g.world));
+  ks_body_definition ball = ks_default_body_definition();
+  ball.position = vec3(5, 5, 5);
+  ks_body_id id;
+  CHECK_OK(ks_world_add(g.world, &ball, 1, &id));
+
+  ks_event_list happened;
+  ks_body_list bodies;
+  REFUSED(ks_game_step(g.world, 0.0, &happened), OUT_OF_RANGE);
+  REFUSED(ks_game_step(g.world, NAN, &happened), NOT_FINITE);
+  REFUSED(ks_game_step(g.world, 1.0, NULL), NULL_ARGUMENT);
+  const ks_vec3 wrong[2] = {vec3(0, NAN, 0), vec3(0, 0, 0)};
+  REFUSED(ks_game_set_velocities(g.world, wrong, 1), NOT_FINITE);
+  CHECK(ks_same_body(ks_last_error_body(), id));
+  REFUSED(ks_game_set_velocities(g.world, wrong, 2), OUT_OF_RANGE);
+  REFUSED(ks_game_set_gravity(g.world, wrong[0]), NOT_FINITE);
+  REFUSED(ks_game_set_acceleration(g.world, id, wrong[0]), NOT_FINITE);
+  ks_body_id never = {77, 1, 0};
+  size_t index;
+  REFUSED(ks_game_set_acceleration(g.world, never, vec3(0, 0, 0)), UNKNOWN_BODY);
+  REFUSED(ks_game_index_of(g.world, never, &index), UNKNOWN_BODY);
+  REFUSED(ks_world_set_velocity(g.world, never, vec3(0, 0, 0)), UNKNOWN_BODY);
+
+  // What games lack, and what other worlds lack.
+  ks_event event = ks_new_event();
+  const ks_run_definition run = ks_default_run_definition();
+  const ks_motion_limits limits = {1, 0, 0, {0, 0, 0}};
+  REFUSED(ks_world_advance(g.world, 1.0, stand_still, NULL, &event), UNSUPPORTED);
+  REFUSED(ks_world_advance(g.world, -1.0, ks_probe_motions, NULL, &event), TIME_BACKWARDS);
+  REFUSED(ks_world_run(g.world, 1.0, &run), UNSUPPORTED);
+  REFUSED(ks_world_set_motion_limits(g.world, id, &limits), UNSUPPORTED);
+  REFUSED(ks_game_step(world, 1.0, &happened), UNSUPPORTED);
+  REFUSED(ks_game_bodies(world, &bodies), UNSUPPORTED);
+
+  // Nothing has changed; a response may not call its game.
+  CHECK_OK(ks_game_bodies(g.world, &bodies));
+  CHECK(bodies.count == 1 && bodies.positions[0].z == 5 && bodies.velocities[0].y == 0);
+  REFUSED(ks_game_step(g.world, 2.0, &happened), CALLBACK_FAILED);
+  CHECK(ks_last_error_callback() == -5);
+  CHECK(g.inside == KS_ERROR_RUN_IN_PROGRESS && g.elsewhere == KS_ERROR_IN_USE);
+
+  char bytes[1 << 14];
+  size_t count;
+  ks_world restored;
+  REFUSED(ks_world_save(g.world, bytes, sizeof bytes, &count), RUN_IN_PROGRESS);
+  CHECK_OK(ks_world_destroy(g.world));
+  CHECK_OK(ks_game_create(&room, &falling, &g.world));
+  CHECK_OK(ks_world_save(g.world, bytes, sizeof bytes, &count));
+  REFUSED(ks_world_restore(bytes, count, NULL, NULL, &restored), BAD_SNAPSHOT);
+  REFUSED(ks_game_restore(bytes, count - 1, &falling, NULL, NULL, &restored), BAD_SNAPSHOT);
+  CHECK_OK(ks_world_destroy(g.world));
+  REFUSED(ks_game_step(g.world, 1.0, &happened), STALE_HANDLE);
+  REFUSED(ks_game_bodies(g.world, &bodies), STALE_HANDLE);
+}
+
 int main(void) {
   ks_world_definition definition = ks_default_world_definition();
   ks_world world;
@@ -640,6 +723,7 @@ int main(void) {
   wrong_recordings();
   wrong_profiling(world);
   wrong_monitors();
+  wrong_games(world);
   CHECK_OK(ks_world_destroy(world));
   printf("%d ways, each noticed\n", ways);
   return ways >= 45 ? 0 : 1;

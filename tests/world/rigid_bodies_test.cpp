@@ -539,7 +539,7 @@ TEST_F(FreeFlight, ARecordingContainsRotations) {
   p.world.change({1, 0, 0}, {.rotation = Rotation{.angular_velocity = {0, 0, 2}}}).value();
   p.world.set_rotation_probe(turning(1.0)).value();
   p.world.start_recording().value();
-  EXPECT_EQ(p.run(5.0).size(), 1u) << "they overlap from the start, part, and meet at 2.88";
+  EXPECT_EQ(p.run(5.0).size(), 2u) << "they overlap from the start, part, and meet at 2.88";
   World copy = p.world.clone().value();
   p.run(10.0);
   // The copy is not recorded, and asks the caller.

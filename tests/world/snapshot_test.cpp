@@ -272,7 +272,9 @@ Bytes rich_snapshot(ContactEvents mode, const Axes& periodic = {}) {
   p.world.remove(ball).value();
   p.world.set_sensor(1, {.distances = {0.5, 0.1}}).value();
   p.add({.position = {5, 5, 2.5}, .solid = false, .sensor_class = 1});
-  const auto event = p.advance(2.0);
+  auto event = p.advance(2.0);
+  // Two begin in the floor and in the box.
+  while (event && event->time == 0.0) event = p.advance(2.0);
   if (event) p.advance(2.0);
   p.world.remove(gone).value();
   p.add({.position = {5, 5, 2}});

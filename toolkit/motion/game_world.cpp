@@ -30,9 +30,9 @@ Error moved_from(std::string_view call) {
           "GameWorld::" + std::string(call) + ": the game has been moved from"};
 }
 
-Error busy(std::string_view call, std::string_view where) {
+Error busy(std::string_view call) {
   return {ErrorCode::run_in_progress, "game", no_body,
-          "GameWorld::" + std::string(call) + ": the game must not be called " + std::string(where)};
+          "GameWorld::" + std::string(call) + ": the game must not be called inside its own response"};
 }
 
 Result<void> check_gravity(std::string_view call, const WorldDefinition& world, const Vec3& gravity) {
@@ -65,15 +65,8 @@ struct GameWorld::Game {
   World world;
   GameBodies bodies;
   GameResponse response;
-  /// What set_velocities() changes; kept for its memory.
-  struct Steered {
-    std::vector<std::uint32_t> places;
-    std::vector<BodyId> ids;
-    std::vector<Vec3> velocities;
-  } steered{};
   std::vector<Event> events{};  ///< of the last step()
   Response answer{};            ///< to the present event
-  bool stepping = false;        ///< true inside step() and as long as a range over events exists
   bool answering = false;       ///< true inside the response
   bool interrupted = false;     ///< true if the last step() has failed
 
@@ -109,16 +102,8 @@ struct GameWorld::Game {
     return BodyChange{.motion_limits = limits};
   }
 
-  /// Returns the end of a step of dt, which may begin now.
-  Result<double> end_of_step(std::string_view call, double dt) const {
-    if (answering) return busy(call, "inside its own response");
-    if (stepping) return busy(call, "in a loop over the events of a step of its own: leave the loop first");
-    InputCheck check(call == "step" ? "GameWorld::step" : "GameWorld::step_through");
-    if (check.positive({"dt"}, dt).error()) return *check.error();
-    return world.time() + dt;
-  }
-
-  Result<void> advance(double until, const EventFn& sink) {
+  Result<void> advance(std::string_view call, double until, const EventFn& sink) {
+    if (answering) return busy(call);
     const auto respond = [&](const Event& event) {
       answering = true;
       const ScopeGuard answered([&] { answering = false; });
@@ -135,7 +120,8 @@ struct GameWorld::Game {
     if (done) return done;
     Error error = done.error();
     constexpr std::string_view inner = "run:";
-    if (error.message.starts_with(inner)) error.message.replace(0, inner.size(), "GameWorld::step:");
+    if (error.message.starts_with(inner))
+      error.message.replace(0, inner.size(), "GameWorld::" + std::string(call) + ":");
     return error;
   }
 
@@ -196,6 +182,18 @@ Result<BodyId> GameWorld::add(const BodyDefinition& body) {
   return game_->add(body, [&](const BodyDefinition& whole) { return game_->world.add(whole); });
 }
 
+Result<std::vector<BodyId>> GameWorld::add_all(std::span<const BodyDefinition> bodies) {
+  if (!game_) return moved_from("add_all");
+  std::vector<BodyDefinition> flying(bodies.begin(), bodies.end());
+  for (BodyDefinition& body : flying) body.planned_acceleration = gravity() + body.planned_acceleration;
+  auto ids = game_->world.add_all(flying);
+  for (std::size_t k = 0; ids && k < bodies.size(); ++k) {
+    const BodyDefinition& body = bodies[k];
+    game_->bodies.add((*ids)[k], time(), {body.position, body.velocity}, body.planned_acceleration);
+  }
+  return ids;
+}
+
 Result<BodyId> GameWorld::add_moving_shape(const MovingShape& body) {
   if (!game_) return moved_from("add_moving_shape");
   return game_->add(body.body, [&](const BodyDefinition& whole) {
@@ -248,30 +246,31 @@ Result<void> GameWorld::set_velocity(BodyId body, const Vec3& velocity) {
       [&](std::size_t place) { game_->bodies.set_velocity(place, time(), velocity); });
 }
 
+Result<void> GameWorld::set_velocities(BodyIds bodies, std::span<const Vec3> velocities) {
+  if (!game_) return moved_from("set_velocities");
+  auto done = game_->world.set_velocities(bodies, velocities);
+  for (std::size_t k = 0; done && k < velocities.size(); ++k)
+    if (const auto place = game_->bodies.find(bodies[k]))
+      game_->bodies.set_velocity(*place, time(), velocities[k]);
+  return done;
+}
+
 Result<void> GameWorld::set_velocities(std::span<const Vec3> velocities) {
   if (!game_) return moved_from("set_velocities");
-  GameBodies& bodies = game_->bodies;
+  const GameBodies& bodies = game_->bodies;
   InputCheck check("GameWorld::set_velocities");
   check.require(velocities.size() == bodies.ids().size(), ErrorCode::out_of_range, {"velocities"},
                 "must have one entry per body,", bodies.ids().size(), velocities.size());
   if (check.error()) return *check.error();
-  const double now = time();
-  const std::vector<Vec3>& before = bodies.velocities(now);
-  auto& [places, ids, changed] = game_->steered;
-  places.clear(), ids.clear(), changed.clear();
-  for (std::uint32_t place = 0; place < velocities.size(); ++place)
-    if (before[place] != velocities[place] && bodies.motion(place) != GameMotion::disabled)
-      places.push_back(place);
-  const bool all = places.size() == velocities.size();
-  for (std::size_t k = 0; k < places.size() && !all; ++k) {
-    ids.push_back(bodies.ids()[places[k]]);
-    changed.push_back(velocities[places[k]]);
+  const std::vector<Vec3>& before = bodies.velocities(time());
+  std::vector<BodyId> turned;
+  std::vector<Vec3> changed;
+  for (std::size_t place = 0; place < velocities.size(); ++place) {
+    if (before[place] == velocities[place] || bodies.motion(place) == GameMotion::disabled) continue;
+    turned.push_back(bodies.ids()[place]);
+    changed.push_back(velocities[place]);
   }
-  auto done =
-      all ? game_->world.set_velocities(bodies.ids(), velocities) : game_->world.set_velocities(ids, changed);
-  if (!done) return done;
-  for (const std::uint32_t place : places) bodies.set_velocity(place, now, velocities[place]);
-  return done;
+  return set_velocities(turned, changed);
 }
 
 Result<void> GameWorld::set_acceleration(BodyId body, const Vec3& acceleration) {
@@ -327,40 +326,33 @@ Result<void> GameWorld::enable(BodyId body, const State& state) {
 Result<std::span<const Event>> GameWorld::step(double dt) {
   if (!game_) return moved_from("step");
   Game& game = *game_;
-  const auto until = game.end_of_step("step", dt);
-  if (!until) return until.error();
-  game.stepping = true;
-  const ScopeGuard end([&] { game.stepping = false; });
+  InputCheck check("GameWorld::step");
+  if (game.answering) return busy("step");
+  if (check.positive({"dt"}, dt).error()) return *check.error();
   if (!std::exchange(game.interrupted, true)) game.events.clear();
-  auto done = game.advance(*until, [&](const Event& event) { game.events.push_back(event); });
+  const auto done =
+      game.advance("step", time() + dt, [&](const Event& event) { game.events.push_back(event); });
   if (!done) return done.error();
   game.interrupted = false;
-  (void)game.bodies.positions(*until);
+  (void)game.bodies.positions(time());
   return std::span<const Event>(game.events);
 }
 
-GameWorld::Events GameWorld::step_through(double dt) {
-  return Events(game("step_through"), game("step_through").end_of_step("step_through", dt).value());
-}
-
-GameWorld::Events::Events(Game& game, double until) : game_(game), until_(until) { game_.stepping = true; }
-GameWorld::Events::~Events() {
-  game_.stepping = false;
-  (void)game_.bodies.positions(game_.world.time());
-}
-
-void GameWorld::Events::go_on() {
-  event_.reset();
-  const auto stop_at = [&](const Event& event) {
-    event_ = event;
-    game_.world.end_run();
-  };
-  game_.advance(until_, stop_at).value();
+Result<std::optional<Event>> GameWorld::advance(double until) {
+  if (!game_) return moved_from("advance");
+  std::optional<Event> next;
+  const auto done = game_->advance("advance", until, [&](const Event& event) {
+    next = event;
+    game_->world.end_run();
+  });
+  if (!done) return done.error();
+  if (!next) (void)game_->bodies.positions(until);
+  return next;
 }
 
 Result<void> GameWorld::set_response(GameResponse response) {
   if (!game_) return moved_from("set_response");
-  if (game_->answering) return busy("set_response", "inside its own response");
+  if (game_->answering) return busy("set_response");
   game_->response = std::move(response);
   return {};
 }
@@ -375,11 +367,11 @@ std::optional<std::size_t> GameWorld::index_of(BodyId body) const {
 }
 State GameWorld::state(BodyId body) const {
   const auto place = index_of(body);
-  if (!place) [[unlikely]]
-    detail::bad_result({ErrorCode::unknown_body, "body", body,
-                        "GameWorld::state: body: " + text_of(body) +
-                            " must be one that can move, and that has not been removed"});
-  return game_->bodies.state(*place, time());
+  if (place) [[likely]]
+    return game_->bodies.state(*place, time());
+  if (!game_->world.body(body).value().is_static) detail::bad_result(GameBodies::not_moved(body));
+  detail::bad_result({ErrorCode::static_body, "body", body,
+                      "GameWorld: body: " + text_of(body) + " must be one that can move"});
 }
 
 World::Queries GameWorld::queries() {

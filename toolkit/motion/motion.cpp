@@ -1,7 +1,9 @@
-// Motion: defaults that refuse unsupported changes, and a probe that rejects bodies of another motion.
+// Motion: defaults that refuse unsupported changes, and a probe that rejects bodies of another motion; and
+// Segment: cubic pieces of motion.
 #include "kinesphere/motion/motion.hpp"
 
 #include "input/input_check.hpp"
+#include "kinesphere/motion/trajectory.hpp"
 #include "motion/checks.hpp"
 
 namespace kinesphere {
@@ -58,6 +60,12 @@ MotionOrigin SingleMotionSource::origin(BodyId body) const {
 void SingleMotionSource::set_origin(BodyId body, const MotionOrigin& origin) {
   Motion::require_number(body, motion_.size());
   motion_.set_origin(body.index, origin).value();
+}
+
+State Segment::state_at(double t) const {
+  const double s = t - begin;
+  return {.position = position + s * (velocity + s * (0.5 * acceleration + s * (jerk / 6.0))),
+          .velocity = velocity + s * (acceleration + s * (0.5 * jerk))};
 }
 
 }  // namespace kinesphere

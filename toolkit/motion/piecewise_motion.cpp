@@ -8,7 +8,6 @@
 #include "input/input_check.hpp"
 #include "motion/body_bytes.hpp"
 #include "motion/checks.hpp"
-#include "motion/limit_rounding.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {

@@ -8,7 +8,6 @@
 #include "kinesphere/random.hpp"
 #include "motion/body_bytes.hpp"
 #include "motion/checks.hpp"
-#include "motion/limit_rounding.hpp"
 
 namespace kinesphere {
 

@@ -5,10 +5,10 @@ import type { Module } from "./module.js";
 import { Motion } from "./motion.js";
 import { checkKeys, type Keys, refusePromise, requireNumbers, shown } from "./options.js";
 import { type BodyAction, bodyActions, eventSize } from "./records.js";
-import { bounced, type Bounces, checkBounce } from "./response.js";
+import { bounced, type Bounces, checkBounce, roughNumbers, StepPotential } from "./response.js";
 import { rotationNumbers, type RotationProbeFunction } from "./rigid_body.js";
 import { Scene } from "./scene.js";
-import { type Vec3, vector } from "./state.js";
+import { pairStateOf, type Vec3, vector } from "./state.js";
 
 /**
  * Sets states[6 k], ... to position and velocity of ids[k] at `time`. Both arrays are good during the call alone.
@@ -31,6 +31,10 @@ export interface Answer {
   secondAngularVelocity?: Vec3;
   firstAction?: BodyAction;
   secondAction?: BodyAction;
+  /** Of sensors: the two have been turned back at the sensor distance (World.turnBack). */
+  turnedBack?: boolean;
+  /** A whole number: the two get this state (World.setPairState). */
+  pairState?: number;
   /** Calls `atStop` of the run with this event. */
   stop?: boolean;
 }
@@ -45,7 +49,7 @@ export interface RunOptions {
   /** The source of states: a motion whose numbers are the indices of the ids, or a map. */
   motion: Motion | BodyMap;
   /** Without it, bodies pass through each other and through walls: `{ restitution: 1 }` lets them bounce. */
-  respond?: RespondFunction | Bounces | Scene;
+  respond?: RespondFunction | Bounces | StepPotential | Scene;
   /**
    * Is called with each event whose answer has `stop`. The world is at the time of the event, and may be changed, but not
    * advanced: add bodies and remove others, teleport them.
@@ -54,10 +58,10 @@ export interface RunOptions {
 }
 
 export const runKeys: Keys<RunOptions> = { motion: true, respond: true, atStop: true };
-const bounceKeys: Keys<Bounces> = { masses: true, restitution: "number", restingSpeed: "number" };
+const bounceKeys: Keys<Bounces> = { masses: true, restitution: "number", restingSpeed: "number", roughness: true };
 const answerKeys: Keys<Answer> = {
   first: true, second: true, firstAngularVelocity: true, secondAngularVelocity: true, firstAction: true,
-  secondAction: true, stop: "boolean",
+  secondAction: true, turnedBack: "boolean", pairState: "number", stop: "boolean",
 };
 /** The vectors of an answer, in the order in which the module reads them. */
 const answerVectors = ["first", "second", "firstAngularVelocity", "secondAngularVelocity"] as const;
@@ -74,17 +78,25 @@ export function moving(probe: Probe): [motion: number, map: number] {
   return [probe instanceof Motion ? probe.address : 0, probe instanceof BodyMap ? probe.address : 0];
 }
 
-const respondings = { nothing: 0, bounces: 1, asksJavaScript: 2, asInScene: 3 } as const;
+const respondings = { nothing: 0, bounces: 1, asksJavaScript: 2, asInScene: 3, byPotential: 4, rough: 5 } as const;
+/** How many numbers of the module an answer has. */
+export const responseSize = 22;
 
-/** Returns how to respond, for the module: a number, masses and so on, and a scene; and the function to call. */
-export function responded(respond: RunOptions["respond"]): [number, Bounces, number, RespondFunction | null] {
+/** How to respond, for the module: a number, masses and so on, and a scene or a potential; and the function to call. */
+export type Responding = [responding: number, bounces: Bounces, other: number, asked: RespondFunction | null];
+
+export function responded(respond: RunOptions["respond"], call = "run"): Responding {
   if (respond === undefined) return [respondings.nothing, {}, 0, null];
   if (respond instanceof Scene) return [respondings.asInScene, {}, respond.address, null];
+  if (respond instanceof StepPotential) return [respondings.byPotential, {}, respond.address, null];
   if (typeof respond === "function") return [respondings.asksJavaScript, {}, 0, respond];
-  checkKeys(respond, bounceKeys, "respond", "run");
-  checkBounce(respond, "run");
-  if (respond.masses !== undefined) requireNumbers(respond.masses, "masses", "run");
-  return [respondings.bounces, respond, 0, null];
+  checkKeys(respond, bounceKeys, "respond", call);
+  checkBounce(respond, call);
+  if (respond.masses !== undefined) requireNumbers(respond.masses, "masses", call);
+  if (respond.roughness === undefined) return [respondings.bounces, respond, 0, null];
+  if (respond.masses !== undefined || respond.restingSpeed)
+    throw new TypeError(`${call}: respond: roughness stands in place of masses and a resting speed`);
+  return [respondings.rough, { ...respond, masses: roughNumbers(respond.roughness, call) }, 0, null];
 }
 
 /** Returns false for what no bounce turns: walls, static and sleeping bodies, infinite masses, and events but begins. */
@@ -119,7 +131,7 @@ export function asking(
       refusePromise(answer, "respond");
       if (answer !== undefined) checkKeys(answer, answerKeys, "answer", "respond", true);
       if (answer?.stop && atStop === undefined) throw new TypeError("respond: stop needs atStop in the options of run");
-      const numbers = new Float64Array(19);
+      const numbers = new Float64Array(responseSize);
       const isBounce = answer !== undefined && bounced in answer;
       for (const [k, name] of answerVectors.entries()) {
         const velocity = answer?.[name];
@@ -130,6 +142,8 @@ export function asking(
       numbers[16] = actionNumber(answer?.firstAction, "firstAction");
       numbers[17] = actionNumber(answer?.secondAction, "secondAction");
       numbers[18] = answer?.stop ? 1 : 0;
+      numbers[19] = answer?.turnedBack ? 1 : 0;
+      if (answer?.pairState !== undefined) numbers.set([1, pairStateOf(answer.pairState, "pairState", "respond")], 20);
       module.numbersAt(response, numbers.length).set(numbers);
     },
     stop(event: number): void {

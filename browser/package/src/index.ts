@@ -6,7 +6,9 @@ export {
   Ballistic, type BallisticOptions, FrameMotion, type FrameMotionOptions, type FrameViolation, type LimitedMotion, Motion,
   type MotionDefinition, RandomForces, type RandomForcesOptions, RecordedTracks, SteeredMotion, type Track,
 } from "./motion.js";
-export { bounce, type Bounce, type BounceOptions, type Bounces } from "./response.js";
+export {
+  bounce, type Bounce, type BounceOptions, type Bounces, type Roughness, StepPotential, type StepPotentialDefinition,
+} from "./response.js";
 export type { AnswerOptions, Limits, PairOptions, QueryOptions } from "./answers.js";
 export type { Answer, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
 export type {
@@ -20,6 +22,7 @@ export { BodyMap } from "./body_map.js";
 export {
   type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, World, WorldView,
 } from "./world.js";
+export { type GameOptions, GameWorld } from "./game_world.js";
 export type { Box, Definition, WorldDefinition } from "./definition.js";
 export type { Filter, PairFilter } from "./filter.js";
 export { Scene, sceneNames, type SceneSettings } from "./scene.js";

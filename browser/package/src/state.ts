@@ -79,3 +79,9 @@ export function sixOf(state: State, call: string): number[] {
     throw new TypeError(`${call}: state must be an object with position and velocity, but is ${shown(state)}`);
   return [...vector(state.position, "position", call), ...vector(state.velocity, "velocity", call)];
 }
+
+/** Returns the state of a pair. Throws RangeError unless it is a whole number of 32 bits. */
+export function pairStateOf(state: number, what: string, call: string): number {
+  if (Number.isInteger(state) && Math.abs(state) < 2 ** 31) return state;
+  throw new RangeError(`${call}: ${what} must be a whole number of 32 bits, but is ${shown(state)}`);
+}

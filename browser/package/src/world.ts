@@ -25,7 +25,7 @@ import {
   type RotationProbeFunction,
 } from "./rigid_body.js";
 import {
-  type BodyId, countOf, each, type PerBody, requireAsMany, sixOf, type State, type Vec3, vector,
+  type BodyId, countOf, each, pairStateOf, type PerBody, requireAsMany, sixOf, type State, type Vec3, vector,
 } from "./state.js";
 
 /** What the world knows of a body now. */
@@ -350,8 +350,12 @@ export class WorldView extends Owned {
   /** Returns the whole world, for World.restore() in any process, including native ones. */
   save(): Uint8Array {
     const module = theModule();
-    module.require(module.call("world_save", this.address));
+    module.require(module.call(this.named("world_save"), this.address));
     return module.bytes();
+  }
+  /** @internal Returns the export of the module that does for this object what this one does for worlds. */
+  protected named(name: string): string {
+    return name;
   }
   /** Returns a copy with an equal future. */
   clone(): World {
@@ -395,8 +399,6 @@ export class WorldView extends Owned {
   }
 }
 
-const existing = Symbol("existing");
-
 export class World extends WorldView {
   #rotationProbe: RotationProbeFunction | null = null;
   #pairFilter: KeptFilter | null = null;
@@ -407,14 +409,23 @@ export class World extends WorldView {
 
   /** Throws KinesphereError for an invalid definition. */
   constructor(definition?: WorldDefinition);
-  /** @internal */
-  constructor(definition: typeof existing, address: number);
-  constructor(definition: WorldDefinition | typeof existing = {}, address = 0) {
-    super(definition === existing ? address : create(definition as WorldDefinition), "world_free");
+  /** @internal The object at this address. */
+  constructor(address: number, free: string);
+  constructor(definition: WorldDefinition | number = {}, free = "world_free") {
+    super(typeof definition === "number" ? definition : create(definition), free);
   }
   /** @internal */
   static at(address: number): World {
-    return new World(existing, address);
+    return new World(address, "world_free");
+  }
+  /** @internal What the world has of JavaScript. */
+  protected kept(): [KeptFilter | null, RotationProbeFunction | null] {
+    return [this.#pairFilter, this.#rotationProbe];
+  }
+  /** @internal */
+  protected keep(filter: KeptFilter | null, rotationProbe: RotationProbeFunction | null): void {
+    this.#pairFilter = filter;
+    this.#rotationProbe = rotationProbe;
   }
   /**
    * Restores a world from save(), called here or in any other program. A world that had a pair filter needs the same one.
@@ -504,7 +515,7 @@ export class World extends WorldView {
     const numbers = new Float64Array(bodySize);
     putBodyFields(numbers, 0, body, call);
     const id = module.with((scratch) =>
-      module.call("world_add_moving_shape", this.address, kind, scratch.numbers(parts), scratch.numbers(numbers)));
+      module.call(this.named("world_add_moving_shape"), this.address, kind, scratch.numbers(parts), scratch.numbers(numbers)));
     if (id < 0) throw module.error();
     return id;
   }
@@ -515,7 +526,7 @@ export class World extends WorldView {
   addRigidBody(parts: readonly RigidPart[], body: RigidBodyDefinition): BodyId {
     const module = theModule();
     const id = module.with((scratch) =>
-      module.call("world_add_rigid_body", this.address, ...rigidArguments(scratch, parts, body, "addRigidBody")));
+      module.call(this.named("world_add_rigid_body"), this.address, ...rigidArguments(scratch, parts, body, "addRigidBody")));
     if (id < 0) throw module.error();
     return id;
   }
@@ -559,7 +570,7 @@ export class World extends WorldView {
                            `but has ${velocities.length}`);
     const module = theModule();
     module.with((scratch) =>
-      module.require(module.call("world_set_velocity_all", this.address, bodies.length, scratch.numbers(bodies),
+      module.require(module.call(this.named("world_set_velocity_all"), this.address, bodies.length, scratch.numbers(bodies),
                                  scratch.numbers(velocities))));
   }
   /** Sets the angular velocity (radians / time) of a rigid body from now on; a rotation probe must agree with it. */
@@ -584,8 +595,7 @@ export class World extends WorldView {
   }
   override clone(): World {
     const copy = super.clone();
-    copy.#rotationProbe = this.#rotationProbe;
-    copy.#pairFilter = this.#pairFilter;
+    copy.keep(...this.kept());
     copy.#kept = this.#kept;
     return copy;
   }
@@ -696,9 +706,8 @@ export class World extends WorldView {
    */
   setPairState(first: BodyId, second: BodyId, state: number): void {
     const module = theModule();
-    if (!(Number.isInteger(state) && Math.abs(state) < 2 ** 31))
-      throw new RangeError(`setPairState: state must be a whole number of 32 bits, but is ${state}`);
-    module.require(module.call("world_set_pair_state", this.address, first, second, state));
+    const number = pairStateOf(state, "state", "setPairState");
+    module.require(module.call("world_set_pair_state", this.address, first, second, number));
   }
   /** Returns the state of two bodies; 0 if it was never set. */
   pairState(first: BodyId, second: BodyId): number {
@@ -848,15 +857,15 @@ export class World extends WorldView {
     console.warn(`run: ${jammedContacts} contacts were jammed: their bodies had no room beyond the contactTolerance, and ` +
                  "parted without speed, whatever the restitution: a contactTolerance below the gaps keeps their energy");
   }
-  private change(name: string, body: BodyId, numbers?: number[]): void {
+  protected change(name: string, body: BodyId, numbers?: number[]): void {
     const module = theModule();
     module.with((scratch: Scratch) =>
-      module.require(module.call(name, this.address, body, ...(numbers === undefined ? [] : [scratch.numbers(numbers)]))));
+      module.require(module.call(this.named(name), this.address, body, ...(numbers === undefined ? [] : [scratch.numbers(numbers)]))));
   }
   private addNumbers(numbers: Float64Array): Float64Array {
     const module = theModule();
     return module.with((scratch) => {
-      module.require(module.call("world_add_all", this.address, numbers.length / bodySize, scratch.numbers(numbers)));
+      module.require(module.call(this.named("world_add_all"), this.address, numbers.length / bodySize, scratch.numbers(numbers)));
       return module.answer();
     });
   }

@@ -1,8 +1,7 @@
 // Bullets that fly through a thin zone.
 import { Ballistic, type Box, World } from "kinesphere";
-import { cellsPerSide } from "./cells.ts";
 import { MovedScene, type SceneChoice, type Setup } from "./live_scene.ts";
-import { randomNumbers } from "./random_numbers.ts";
+import { cellsPerSide, randomNumbers } from "./numbers.ts";
 
 export function bullets({ bodies, seed }: SceneChoice): Setup {
   const random = randomNumbers(seed);

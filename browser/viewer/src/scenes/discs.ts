@@ -1,7 +1,7 @@
 // Discs in a plane: large ones that are pushed at random, and small fast ones that pass between two looks of a loop.
 import { type Event, SteeredMotion, World } from "kinesphere";
 import { MovedScene, type Setup } from "./live_scene.ts";
-import { randomNumbers } from "./random_numbers.ts";
+import { randomNumbers } from "./numbers.ts";
 
 /** The size of the box, and the seed of places, velocities and forces. */
 export interface DiscsChoice {

@@ -1,7 +1,7 @@
 // Drones that fly from place to place and report with errors. A drone in a warning climbs or sinks.
 import { type BodyId, type Box, type Event, SteeredMotion, type Vec3, World } from "kinesphere";
 import type { AlarmDistances, LiveScene, SceneChoice, Setup } from "./live_scene.ts";
-import { randomNumbers } from "./random_numbers.ts";
+import { randomNumbers } from "./numbers.ts";
 
 /** Metres and seconds. */
 const radius = 1.5;

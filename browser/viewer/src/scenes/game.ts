@@ -1,9 +1,8 @@
 // A game at 60 frames a second. It moves its balls as games do, v += g dt, x += v dt, and hands each frame over;
 // contacts come with their exact times between the last two frames, and are answered there.
 import { type BodyId, bounce, type Box, type Event, FrameMotion, type Vec3, World } from "kinesphere";
-import { cellsPerSide } from "./cells.ts";
 import type { LiveScene, SceneChoice, Setup } from "./live_scene.ts";
-import { randomNumbers } from "./random_numbers.ts";
+import { cellsPerSide, randomNumbers } from "./numbers.ts";
 
 const interval = 1 / 60;
 const gravity = 9.81;

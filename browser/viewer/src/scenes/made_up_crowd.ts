@@ -1,6 +1,6 @@
 // A crowd for a page that was given none: two streams of walkers that cross, and evade no one.
 import type { TrackTable } from "./crowd.ts";
-import { randomNumbers } from "./random_numbers.ts";
+import { randomNumbers } from "./numbers.ts";
 
 const walkers = 200;
 /** Sides of the square, in metres, and seconds between two samples. */

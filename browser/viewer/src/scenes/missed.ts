@@ -1,8 +1,7 @@
 // Small fast bodies among large slow ones: most of their contacts lie between two looks of a loop of 60 Hz.
 import { Ballistic, type Box, World } from "kinesphere";
-import { cellsPerSide } from "./cells.ts";
 import { MovedScene, type SceneChoice, type Setup } from "./live_scene.ts";
-import { randomNumbers } from "./random_numbers.ts";
+import { cellsPerSide, randomNumbers } from "./numbers.ts";
 
 const box: Box = { lower: [0, 0, 0], upper: [40, 30, 30] };
 /** Every fourth body is fast. */

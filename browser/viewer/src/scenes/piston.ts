@@ -1,8 +1,7 @@
 // A gas between a wall and a piston, which is a moving shape: the world knows how strongly it may accelerate, no more.
 import { type BodyId, bounce, type Box, type Event, type ProbeFunction, type Vec3, World } from "kinesphere";
-import { cellsPerSide } from "./cells.ts";
 import type { LiveScene, SceneChoice, Setup } from "./live_scene.ts";
-import { randomNumbers } from "./random_numbers.ts";
+import { cellsPerSide, randomNumbers } from "./numbers.ts";
 
 const room: Box = { lower: [0, 0, 0], upper: [10, 10, 16] };
 const plate: Box = { lower: [-4.95, -4.95, -0.2], upper: [4.95, 4.95, 0.2] };

@@ -1,8 +1,7 @@
 // Rigid bodies in a box: dumbbells, rods, jacks, crates and octahedra, which turn each other.
 import { Ballistic, type BodyId, BodyMap, type Box, type Event, type RigidPart, type Vec3, World } from "kinesphere";
-import { cellsPerSide } from "./cells.ts";
 import type { LiveScene, SceneChoice, Setup } from "./live_scene.ts";
-import { randomNumbers } from "./random_numbers.ts";
+import { cellsPerSide, randomNumbers } from "./numbers.ts";
 
 const box: Box = { lower: [0, 0, 0], upper: [12, 12, 12] };
 
