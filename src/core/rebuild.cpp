@@ -121,6 +121,7 @@ bool Core::is_valid(std::uint32_t number, std::span<const std::vector<std::uint3
   const std::vector<std::uint32_t>& neighbours = lists[number];
   if (!ball.is_present()) return neighbours.empty();
   if (changes_[number] > most_changes || (ball.is(Ball::passive) && changes_[number] != 0)) return false;
+  if (ball.is(Ball::passive) && std::min({ball.due, ball.second, ball.own}) < infinity) return false;
   const float reach = saved_.reaches[number];
   if (ball.is(Ball::arriving) && (!neighbours.empty() || ball.about != none)) return false;
   if (ball.is(Ball::arriving) && reach == 0.0F) return true;

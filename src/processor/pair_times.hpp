@@ -87,7 +87,8 @@ class PairTimes {
   /// bodies, so all pairs of one body are spread, too.
   std::size_t place_of(std::uint64_t name) const {
     const std::size_t mask = table_.size() - 1;
-    std::size_t place = name * 0x9E3779B97F4A7C15u >> (64 - std::countr_zero(table_.size()));
+    const std::uint64_t highest = name * 0x9E3779B97F4A7C15u >> (64 - std::countr_zero(table_.size()));
+    auto place = static_cast<std::size_t>(highest);
     while (table_[place].pair != name && table_[place].pair != nothing) place = (place + 1) & mask;
     return place;
   }
