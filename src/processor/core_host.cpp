@@ -24,8 +24,10 @@ bool EventProcessor::rebuild_core() {
     const core::Ball& ball = core().balls()[number];
     if (number >= bodies().numbers() || ball.is(core::Ball::passive) != bodies()[number].is_static())
       return false;
+    if (ball.is(core::Ball::meets_walls) && !bodies().walls()) return false;
     // A changed filter is told to the core as the body is settled.
-    if (ball.is(core::Ball::meets_walls) != bodies().meets_walls(number) && !bodies()[number].dirty)
+    if (ball.is(core::Ball::meets_walls) != bodies().meets_walls(number) &&
+        !DirtyList::may_have_moved(bodies()[number]))
       return false;
   }
   return core().rebuild(time_);
