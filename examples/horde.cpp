@@ -33,7 +33,7 @@ int main() {
   int shots = 0, killed = 0, bites = 0, seen = 0;
   std::vector<Vec3> wanted;
   std::vector<RayQuery> rays;
-  for (int frame = 0; frame < 60 * 15; ++frame) {
+  for (int frame = 0; frame < 60 * 12; ++frame) {
     // Steering: one velocity for each body, in the order of game.ids().
     const Vec3 goal = game.state(player).position;
     wanted.assign(game.velocities().begin(), game.velocities().end());

@@ -67,7 +67,7 @@ void coil(std::uint32_t beads, std::uint64_t seed, Coil& found) {
     for (int axis = 0; axis < 3; ++axis) velocity[axis] = gauss(random);
     motion.set_velocity(hit.index, event.time, velocity).value();
     world.set_velocity(hit, velocity).value();
-    if (event.time < 500.0) return;  // it forgets how it began
+    if (event.time < 300.0) return;  // it forgets how it began
     ++found.samples;
     Vec3 whole;
     for (std::uint32_t k = 1; k < beads; ++k) {
@@ -78,7 +78,7 @@ void coil(std::uint32_t beads, std::uint64_t seed, Coil& found) {
     found.square_end_to_end += norm_squared(whole);
   };
   world.schedule({.time = 0.5, .period = 0.5}).value();
-  world.run(2000.0, source, respond, hear).value();
+  world.run(1200.0, source, respond, hear).value();
 }
 
 }  // namespace

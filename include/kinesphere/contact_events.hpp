@@ -9,11 +9,9 @@ namespace kinesphere {
 /// report what either asks for. Walls and static bodies ask for nothing themselves.
 enum class ContactEvents : std::uint8_t {
   /// A begin whenever the two touch and approach, and no ends: the least, for bodies that only bounce. Two
-  /// that
-  /// touch without an approach have no event, but for two that a change of the caller has put into each other
-  /// by
-  /// more than the contact tolerance, as a body that is added at rest inside another: they have one begin at
-  /// once, although no bounce could part them. WorldDefinition::allow_overlap = false refuses it.
+  /// that touch without an approach have no event. But two that a change of the caller has put into each
+  /// other by more than the contact tolerance, as a body that is added at rest inside another, have one begin
+  /// at once, although no bounce could part them. WorldDefinition::allow_overlap = false refuses it.
   impacts = 1,
   /// One begin and one end for each contact, for bodies whose contacts are watched and seldom answered. There
   /// is another begin (Event::already_touching) only for the first approach of two that did not approach when

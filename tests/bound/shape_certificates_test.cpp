@@ -11,7 +11,7 @@ namespace {
 using exact::Wide;
 
 constexpr std::uint64_t seed = 1736;
-const auto cases_per_family = rounds_of<std::uint64_t>(1000);
+const auto cases_per_family = rounds_of<std::uint64_t>(500);
 constexpr int samples = 48;
 template <class Solid>
 struct ShapeCase {

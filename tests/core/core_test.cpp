@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/bouncing_balls.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere::core_test {
 namespace {
@@ -156,7 +157,7 @@ std::vector<Case> all_cases() {
 /// No two balls ever overlap by more than the tolerance without an answer, and each bounce is at a contact.
 TEST(Core, MissesNoContactOfBallsThatKeepTheirLimits) {
   for (const Case& scene : all_cases()) {
-    for (std::uint64_t round = 0; round < 4; ++round) {
+    for (std::uint64_t round = 0; round < rounds_of(4u); ++round) {
       SCOPED_TRACE(testing::Message() << scene.name << ", seed " << seed + round << ", " << scene.crowd.count
                                       << " balls, acceleration " << scene.crowd.acceleration << ", plan "
                                       << scene.crowd.plan << ", error " << scene.crowd.velocity_error);

@@ -10,6 +10,7 @@
 #include "kinesphere/random.hpp"
 #include "number/infinity.hpp"
 #include "support/sealed_snapshot.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere::snapshot_test {
 namespace {
@@ -96,7 +97,7 @@ std::vector<MonitorEvent> watch_dense_sky(std::uint64_t seed, bool is_restored_o
 }
 
 TEST(MonitorSnapshot, MakesNoDifferenceHoweverOftenItIsRestored) {
-  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+  for (std::uint64_t seed = 1; seed <= rounds_of(3u); ++seed) {
     const std::vector<MonitorEvent> expected = watch_dense_sky(seed, false);
     EXPECT_GT(expected.size(), 2000u);
     EXPECT_TRUE(watch_dense_sky(seed, true) == expected) << "seed " << seed;

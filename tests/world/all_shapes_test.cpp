@@ -421,7 +421,7 @@ std::vector<Kind> kinds() {
     for (const Answer answer : {Answer::none, Answer::bounce, Answer::settle})
       for (const bool has_gravity : {false, true})
         for (const bool is_exact : {true, false})
-          for (int k = 0; k < 3; ++k) all.push_back({++seed, eps, answer, has_gravity, is_exact});
+          for (int k = 0; k < rounds_of(3); ++k) all.push_back({++seed, eps, answer, has_gravity, is_exact});
   return scenes_of_each(all);
 }
 
