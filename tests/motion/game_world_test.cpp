@@ -243,7 +243,7 @@ TEST(GameWorld, AddsAndTurnsSeveralAtOnce) {
                ErrorCode::not_finite, "velocity", "set_velocities", ids[1]);
   EXPECT_EQ(game.velocities()[1], (Vec3{1, 0, 0}));
   game.step(0.5).value();
-  EXPECT_EQ(game.state(ids[1]).position, Vec3(5.5, 5, 5) + 0.125 * gravity);
+  EXPECT_EQ(game.state(ids[1]).position, (Vec3{5.5, 5, 5} + 0.125 * gravity));
   for (const BodyId id : ids)
     EXPECT_EQ(game.world().body(id)->definition.planned_acceleration, gravity) << "what the world knows";
 }
