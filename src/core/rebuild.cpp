@@ -122,6 +122,10 @@ bool Core::is_valid(std::uint32_t number, std::span<const std::vector<std::uint3
   if (!ball.is_present()) return neighbours.empty();
   if (changes_[number] > most_changes || (ball.is(Ball::passive) && changes_[number] != 0)) return false;
   if (ball.is(Ball::passive) && std::min({ball.due, ball.second, ball.own}) < infinity) return false;
+  unsigned walls = 0;
+  for (const auto& [wall, inside] : walls_) walls |= wall_bit(wall);
+  if (walls != 0) walls |= Ball::at_walls;
+  if ((ball.walls & ~walls) != 0 || (walls == 0 && ball.is(Ball::at_wall))) return false;
   const float reach = saved_.reaches[number];
   if (ball.is(Ball::arriving) && (!neighbours.empty() || ball.about != none)) return false;
   if (ball.is(Ball::arriving) && reach == 0.0F) return true;
