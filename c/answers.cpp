@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "convert.hpp"
-
 #include "exchange.hpp"
 #include "kinesphere/certificates.hpp"
 #include "kinesphere/queries.hpp"

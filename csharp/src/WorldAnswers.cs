@@ -127,14 +127,14 @@ namespace Kinesphere
 
         Hit[][] HitsOfAll(Array queries, string name, BodyId[] except, Filter? filter, Probe probe, FindAll find)
         {
-            if (queries == null) throw new ArgumentNullException(name);
+            UIntPtr count = Arrays.Count(queries, name);
             if (except != null && except.Length != queries.Length)
                 throw new ArgumentException("There must be an id for each query.", "except");
             var ends = new UIntPtr[queries.Length];
             Filter given = filter.GetValueOrDefault();
             Filter* chosen = filter.HasValue ? &given : null;
-            Hit[] found = Hits(probe, (Native.Probe callback, Hit[] hits, UIntPtr capacity, out UIntPtr count) =>
-                find(callback, (UIntPtr)queries.Length, ref *chosen, ends, hits, capacity, out count));
+            Hit[] found = Hits(probe, (Native.Probe callback, Hit[] hits, UIntPtr capacity, out UIntPtr written) =>
+                find(callback, count, ref *chosen, ends, hits, capacity, out written));
             var each = new Hit[queries.Length][];
             for (int k = 0, begin = 0; k < each.Length; begin = (int)ends[k++])
             {

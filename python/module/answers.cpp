@@ -1,4 +1,5 @@
 // Certificates as answers, and queries.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -101,24 +102,24 @@ NewArray new_found(std::size_t count, bool with_limits) {
       {count}, row_type(with_limits ? fields : fields.first(2), sizeof(FoundRecord)), sizeof(FoundRecord)};
 }
 
-py::object found_table(const std::vector<OverlapHit>& found) {
-  NewArray table = new_found(found.size(), false);
-  for (std::size_t k = 0; k < found.size(); ++k)
-    table.data<FoundRecord>()[k] = {
-        number_of(found[k].body), found[k].certainty == Certainty::certainly, {}, 0.0, 0.0};
-  return table.take();
+/// Overlaps have no limits of a distance.
+template <class Hit>
+constexpr bool has_limits = !std::is_same_v<Hit, OverlapHit>;
+
+template <class Hit>
+FoundRecord record_of(const Hit& hit) {
+  FoundRecord record{number_of(hit.body), hit.certainty == Certainty::certainly, {}, 0.0, 0.0};
+  if constexpr (has_limits<Hit>) {
+    record.lower = hit.lower;
+    record.upper = hit.upper;
+  }
+  return record;
 }
 
-template <class Item>
-py::object found_table(const std::vector<Item>& found) {
-  NewArray table = new_found(found.size(), true);
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    table.data<FoundRecord>()[k] = {number_of(found[k].body),
-                                    found[k].certainty == Certainty::certainly,
-                                    {},
-                                    found[k].lower,
-                                    found[k].upper};
-  }
+template <class Hit>
+py::object found_table(const std::vector<Hit>& found) {
+  NewArray table = new_found(found.size(), has_limits<Hit>);
+  std::transform(found.begin(), found.end(), table.data<FoundRecord>(), record_of<Hit>);
   return table.take();
 }
 
@@ -178,24 +179,16 @@ constexpr Field found_by_query_fields[] = {
     {"lower", "f8", offsetof(FoundByQueryRecord, found) + offsetof(FoundRecord, lower)},
     {"upper", "f8", offsetof(FoundByQueryRecord, found) + offsetof(FoundRecord, upper)}};
 
-double lower_of(const OverlapHit&) { return 0.0; }
-double upper_of(const OverlapHit&) { return 0.0; }
-double lower_of(const auto& hit) { return hit.lower; }
-double upper_of(const auto& hit) { return hit.upper; }
-
 template <class Hit>
 py::object found_table(const HitLists<Hit>& lists) {
   const std::span<const Field> fields(found_by_query_fields);
-  NewArray table{
-      {lists.hits.size()},
-      row_type(std::is_same_v<Hit, OverlapHit> ? fields.first(3) : fields, sizeof(FoundByQueryRecord)),
-      sizeof(FoundByQueryRecord)};
+  NewArray table{{lists.hits.size()},
+                 row_type(has_limits<Hit> ? fields : fields.first(3), sizeof(FoundByQueryRecord)),
+                 sizeof(FoundByQueryRecord)};
   std::size_t row = 0;
   for (std::size_t query = 0; query < lists.size(); ++query)
     for (const Hit& hit : lists[query])
-      table.data<FoundByQueryRecord>()[row++] = {
-          static_cast<std::int64_t>(query),
-          {number_of(hit.body), hit.certainty == Certainty::certainly, {}, lower_of(hit), upper_of(hit)}};
+      table.data<FoundByQueryRecord>()[row++] = {static_cast<std::int64_t>(query), record_of(hit)};
   return table.take();
 }
 

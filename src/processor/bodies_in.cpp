@@ -1,7 +1,5 @@
 #include "processor/bodies_in.hpp"
 
-#include <algorithm>
-
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -25,8 +23,7 @@ std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& state, co
     if (DirtyList::may_have_moved(state.bodies[number])) numbers.push_back(number);
   for (const std::uint32_t number : registered_in(box, state))
     if (!DirtyList::may_have_moved(state.bodies[number])) numbers.push_back(number);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  make_ascending(numbers);
   return numbers;
 }
 

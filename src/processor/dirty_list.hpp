@@ -40,9 +40,10 @@ class DirtyList {
     body.dirty = true;
     body.turned = turns_alone;
   }
-  /// Returns all bodies that may be elsewhere than the core knows, and possibly some that are not.
+  /// Returns all bodies of which more than the velocity has changed, so that they may be elsewhere than the
+  /// core knows, and possibly some that are clean.
   std::span<const std::uint32_t> moved() const { return moved_; }
-  /// Returns true if the body is in `moved()`, or should be.
+  /// Returns true if more than the velocity of the body has changed: it is in `moved()`.
   static bool may_have_moved(const Body& body) { return body.dirty && !body.turned; }
   /// Sorts the list in ascending order and removes duplicates and bodies that are not dirty. Returns the
   /// list. Cost: O(n log n).

@@ -153,8 +153,7 @@ void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
   if (!body.fresh(time_)) bodies().change_of(number).velocity = velocity;
   // A body with a report of now moves on with it at once, also if it awaits another report, having slept.
   if (body.bound.time == time_) body.bound.velocity = velocity;
-  contacts().turn_reported(number);
-  invalidate(number, true);
+  turn_reported(number, true);
 }
 
 void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity) {
@@ -163,8 +162,13 @@ void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angu
   record.change({record.at(time_).orientation, angular_velocity}, time_, body.fresh(time_));
   if (!body.fresh(time_)) bodies().change_of(number);
   contacts().set_largest_acceleration(number, bodies().largest_acceleration(number));
+  turn_reported(number);
+}
+
+/// Makes everything stale that depends on how the body has moved until now.
+void EventProcessor::turn_reported(std::uint32_t number, bool turns) {
   contacts().turn_reported(number);
-  invalidate(number);
+  invalidate(number, turns);
 }
 
 void EventProcessor::detach(std::uint32_t number) {

@@ -181,6 +181,7 @@ class alignas(128) EventProcessor final : public core::Host {
   const ContactGraph& contacts() const { return state_->contacts; }
 
   void note_probes(std::span<const std::uint32_t> numbers, ProbeCause cause);
+  void turn_reported(std::uint32_t number, bool turns = false);
   Result<void> recertify_dirty();
 
   // rechecks.cpp

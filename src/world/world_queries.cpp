@@ -8,6 +8,7 @@
 #include "kinesphere/limits.hpp"
 #include "kinesphere/queries.hpp"
 #include "parallel/thread_pool.hpp"
+#include "processor/dirty_list.hpp"
 #include "query/queries.hpp"
 #include "world/preconditions.hpp"
 
@@ -187,14 +188,19 @@ Result<HitLists<Hit>> World::Queries::answer_all(std::string_view call, std::spa
   std::vector<std::size_t> open(queries.size());
   std::iota(open.begin(), open.end(), std::size_t{0});
   for (;;) {
-    lease.for_each(open.size(), least_queries, [&](std::size_t k, std::size_t worker) {
-      const Query& query = queries[open[k]];
-      const QueryOptions options{.filter = filter, .except = query.except};
-      std::vector<Hit> hits;
-      ask(Engine::Queries(engine, options), query, hits);
-      places[open[k]] = {worker, found[worker].size(), found[worker].size() + hits.size()};
-      found[worker].insert(found[worker].end(), hits.begin(), hits.end());
-    });
+    lease.parallel_for(open.size(), least_queries,
+                       [&](std::size_t begin, std::size_t end, std::size_t worker) {
+                         std::vector<Hit>& kept = found[worker];
+                         std::vector<Hit> hits;
+                         for (std::size_t k = begin; k < end; ++k) {
+                           const Query& query = queries[open[k]];
+                           const QueryOptions options{.filter = filter, .except = query.except};
+                           hits.clear();
+                           ask(Engine::Queries(engine, options), query, hits);
+                           places[open[k]] = {worker, kept.size(), kept.size() + hits.size()};
+                           kept.insert(kept.end(), hits.begin(), hits.end());
+                         }
+                       });
     if (!facet_.probing) break;
     std::vector<std::uint32_t> asked;
     std::erase_if(open, [&](std::size_t query) {
@@ -204,8 +210,7 @@ Result<HitLists<Hit>> World::Queries::answer_all(std::string_view call, std::spa
         if (const Hit& hit = found[at.worker][k]; leaves_open(hit)) asked.push_back(hit.body.index);
       return asked.size() == before;
     });
-    std::sort(asked.begin(), asked.end());
-    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+    make_ascending(asked);
     const auto probed = facet_.refresh(asked, call);
     if (!probed) return probed.error();
     if (!*probed) break;
