@@ -107,7 +107,7 @@ template <class Hit>
 constexpr bool has_limits = !std::is_same_v<Hit, OverlapHit>;
 
 template <class Hit>
-FoundRecord record_of(const Hit& hit) {
+FoundRecord found_record_of(const Hit& hit) {
   FoundRecord record{number_of(hit.body), hit.certainty == Certainty::certainly, {}, 0.0, 0.0};
   if constexpr (has_limits<Hit>) {
     record.lower = hit.lower;
@@ -119,7 +119,7 @@ FoundRecord record_of(const Hit& hit) {
 template <class Hit>
 py::object found_table(const std::vector<Hit>& found) {
   NewArray table = new_found(found.size(), has_limits<Hit>);
-  std::transform(found.begin(), found.end(), table.data<FoundRecord>(), record_of<Hit>);
+  std::transform(found.begin(), found.end(), table.data<FoundRecord>(), found_record_of<Hit>);
   return table.take();
 }
 
@@ -188,7 +188,7 @@ py::object found_table(const HitLists<Hit>& lists) {
   std::size_t row = 0;
   for (std::size_t query = 0; query < lists.size(); ++query)
     for (const Hit& hit : lists[query])
-      table.data<FoundByQueryRecord>()[row++] = {static_cast<std::int64_t>(query), record_of(hit)};
+      table.data<FoundByQueryRecord>()[row++] = {static_cast<std::int64_t>(query), found_record_of(hit)};
   return table.take();
 }
 
