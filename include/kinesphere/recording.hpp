@@ -9,10 +9,11 @@
 //     if (auto event = replay.advance().value()) ...  // replay.world() is as the world was then
 //   }
 //
-// A recording holds the world as it was at the start, every change, every probed state and rotation, and the
-// outcome of every call that could probe, with a hash of the event and of all work so far. A replay is a
-// real world whose probes read from the recording: it needs nothing else, on any machine, and names the
-// first step that differs.
+// A recording holds the world as it was at the start, every change, every probed state and rotation, and for
+// every call that could probe a hash of its outcome and of all work so far. A replay is a real world whose
+// probes read from the recording: it needs nothing else, on any machine, and names the first step that
+// differs. States and velocities are held, to the last bit, as differences from those that the world expects:
+// where bodies move as planned and answer events with bounce() or settle(), 6 to 15 bytes an event.
 #pragma once
 
 #include <cstddef>
@@ -52,19 +53,22 @@ class Replay {
   ~Replay();
 
   /// Repeats everything up to the end of the next recorded advance(), or of the recording, and returns what
-  /// that advance() returned (nothing if it failed). Errors: diverged, naming the step, the recorded and
-  /// the actual outcome; every further call returns it again.
+  /// that advance() returned (nothing if it failed). Errors: diverged, naming the step and its outcome; every
+  /// further call returns it again.
   Result<std::optional<Event>> advance();
   /// True if no step is left and the world has ended as the recorded one did, to the last bit.
   bool finished() const;
 
+  /// States that were probed during the last advance(), in order, without those of a probe that failed. Valid
+  /// until the next one.
+  std::span<const ProbedState> probed_states() const;
   /// Returns the world after the last repeated step, for reading.
   const World& world() const;
   /// Number of steps repeated so far, and in total; steps are changes and calls that could probe.
   std::size_t step() const;
   std::size_t step_count() const;
-  /// Hash of all outcomes so far; after each step it equals the hash that the recording holds for that
-  /// step.
+  /// Hash of all outcomes so far. After each step its lowest 16 bits are those that the recording holds for
+  /// that step.
   std::uint64_t hash() const;
 
  private:
@@ -73,7 +77,7 @@ class Replay {
   std::unique_ptr<Player> player_;
 };
 
-/// Contents of a recording that a viewer can draw without a replay.
+/// What happened in a recorded run.
 struct RecordedRun {
   double start_time = 0.0;
   double end_time = 0.0;
@@ -84,7 +88,8 @@ struct RecordedRun {
   friend bool operator==(const RecordedRun&, const RecordedRun&) = default;
 };
 
-/// Reads a recording without replaying it. Errors: as Replay::open().
-Result<RecordedRun> read_recording(std::span<const std::byte> recording);
+/// Replays a recording, and returns all that happened. Errors: as Replay::open() and Replay::advance(). Cost:
+/// that of the run without its probes.
+Result<RecordedRun> read_recording(std::span<const std::byte> recording, PairFilter pair_filter = {});
 
 }  // namespace kinesphere

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-
 from typing import Any
 
 import numpy as np
@@ -11,11 +11,12 @@ import numpy.typing as npt
 
 from ._kinesphere import GameWorld, World, _read_recording
 from .events import Events
+from .ids import BodyId
 
 
 @dataclass(frozen=True)
 class RecordedRun:
-    """What a viewer can draw: events, and the states that were reported, in the order in which they came."""
+    """All that happened: events, and the states that were reported, in the order in which they came."""
 
     start_time: float
     end_time: float
@@ -28,9 +29,13 @@ class RecordedRun:
     velocities: npt.NDArray[np.float64]
 
 
-def read_recording(recording: bytes) -> RecordedRun:
-    """What World.stop_recording() returned, or the file of `kinesphere run --record`. Raises InvalidValue."""
-    return RecordedRun(*_read_recording(recording))
+def read_recording(
+    recording: bytes, pair_filter: Callable[[BodyId, BodyId], bool] | None = None
+) -> RecordedRun:
+    """All that happened in what World.stop_recording() returned, or in the file of `kinesphere run --record`.
+    The run is repeated for it, as Replay does: `pair_filter` is needed if its world had one. Raises InvalidValue
+    for bytes that are no recording, StateError (diverged) where the run goes another way."""
+    return RecordedRun(*_read_recording(recording, pair_filter))
 
 
 def restored(snapshot: bytes) -> World:

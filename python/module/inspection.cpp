@@ -271,9 +271,13 @@ py::object advance_replay(ReplayHandle& handle) {
   return event ? py::cast(*event) : py::none();
 }
 
-/// Reads everything in a recording, without repeating it.
-py::tuple read_all(const py::object& recording) {
-  const RecordedRun run = read_recording(bytes_from(recording, {"read_recording", "recording"})).value();
+/// Replays a recording, and returns all that happened.
+py::tuple read_all(const py::object& recording, const py::object& pair_filter) {
+  const std::vector<std::byte> bytes = bytes_from(recording, {"read_recording", "recording"});
+  const auto trouble = std::make_shared<FilterTrouble>();
+  const auto read = read_recording(bytes, pair_filter_of(pair_filter, trouble));
+  if (trouble->thrown) std::rethrow_exception(std::exchange(trouble->thrown, nullptr));
+  const RecordedRun& run = read.value();
   std::vector<EventRecord> events;
   for (const Event& event : run.events) events.push_back(record_of(event));
   std::vector<double> times;
@@ -313,7 +317,7 @@ The first step that goes another way than its recording raises StateError (diver
         return "<Replay at step " + std::to_string(handle.replay.step()) + " of " +
                std::to_string(handle.replay.step_count()) + ">";
       });
-  module.def("_read_recording", read_all, py::arg("recording"));
+  module.def("_read_recording", read_all, py::arg("recording"), py::arg("pair_filter"));
 }
 
 void bind_inspection(py::module_& module, WorldClass& world) {

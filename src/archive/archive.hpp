@@ -180,6 +180,8 @@ class ByteReader {
   }
 
   bool failed() const { return failed_; }
+  /// Makes this reading fail, because what was read has not the form that it should have.
+  void refuse() { failed_ = true; }
   std::size_t remaining() const { return bytes_.size(); }
 
  private:

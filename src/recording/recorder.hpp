@@ -1,6 +1,7 @@
 // Recorder: records the steps of a world as they happen.
 #pragma once
 
+#include "recording/expectation.hpp"
 #include "recording/step.hpp"
 
 namespace kinesphere {
@@ -10,8 +11,8 @@ class Recorder {
   /// Starts a recording with a snapshot of the world. Precondition: no probe of the world is running.
   Recorder(const World& world, bool has_pair_filter, bool has_rotation_probe);
 
-  /// Records a change of the world.
-  void note(const Step& change) { content_(change); }
+  /// Records a change of the world, before it is made.
+  void note(const World& world, const Step& change);
 
   /// Returns a probe that asks `probe` and records its answers; an empty one if `probe` is empty. The
   /// recorder must outlive it.
@@ -30,6 +31,8 @@ class Recorder {
  private:
   ByteWriter content_;
   StepHash hash_;
+  Expectation expectation_;
+  double until_ = 0.0;   ///< argument of the last advance
   step::Asking asking_;  ///< Member, so that its memory is reused.
   RotationProbe rotation_probe_;
 };
@@ -52,6 +55,7 @@ class Recorder::Listener {
   Recorder& recorder_;
   const World& world_;
   const Probe& probe_;
+  std::optional<Event> event_;
 };
 
 }  // namespace kinesphere

@@ -5,17 +5,31 @@
 // arguments.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "archive/archive.hpp"
 #include "archive/checksum.hpp"
+#include "archive/envelope.hpp"
 #include "archive/fields.hpp"
 #include "kinesphere/recording.hpp"
+#include "recording/differences.hpp"
 
 namespace kinesphere {
+
+/// Raise the version when the serialized steps change. The snapshot's version covers changes of their effect
+/// on a world.
+inline constexpr Envelope recording_envelope{{'K', 'i', 'n', 'e', 'r', 'c', '\r', '\n'},
+                                             14,
+                                             "recording",
+                                             "Replay::open",
+                                             "recording",
+                                             ErrorCode::bad_recording};
 
 namespace step {
 
@@ -141,11 +155,34 @@ struct SetRotationProbe {
   bool given = false;
 };
 
-/// A probed state, as one of several that a single probe call returned.
-struct Answer {
-  ProbedState report{};
-  bool last = false;  ///< Last answer of its probe call.
+/// Change of the velocity, or of the angular velocity, of a body of the last event (Expectation).
+struct Rebound {
+  /// Values of `choice`: below told_speed, the number of a rebound that is expected.
+  static constexpr std::uint8_t told_speed = 24, as_before = 25;
+
+  bool second = false;              ///< of the second body of the event
+  bool spin = false;                ///< of the angular velocity
+  std::uint8_t choice = as_before;  ///< which rebound it is
+  double speed = 0.0;               ///< change of the approach speed; only for told_speed
+  Differences<3> velocity{};
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [second, spin, choice, speed, velocity] = self;
+    auto head = static_cast<std::uint8_t>((second ? 1 : 0) | (spin ? 2 : 0) | choice << 2);
+    archive(head);
+    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(self)>>) {
+      second = (head & 1) != 0;
+      spin = (head & 2) != 0;
+      choice = head >> 2;
+      if (choice > as_before) archive.refuse();
+    }
+    if (choice == told_speed) archive(speed);
+    archive(velocity);
+  }
 };
+
+/// A state that a probe returned: position and velocity.
+using Answer = Differences<6>;
 
 /// A rotation that the rotation probe returned.
 struct RotationAnswer {
@@ -156,12 +193,40 @@ struct RotationAnswer {
 
 /// A call that probed: advance(), or any other call with a probe.
 struct Asking {
-  std::optional<double> until{};  ///< The argument of advance(); empty for other calls.
+  bool failed = true;            ///< The last answer was refused, or the probe threw.
+  bool has_event = false;        ///< advance() returned an event.
+  bool advances = false;         ///< The call was advance().
+  Differences<1> until{};        ///< The argument of advance(), from that of the last one.
+  std::vector<BodyId> bodies{};  ///< Those that a call other than advance() asked for.
   std::vector<Answer> answers{};
   std::vector<RotationAnswer> rotations{};
-  bool failed = true;  ///< The last answer was refused, or the probe threw.
-  std::optional<Event> event{};
-  std::uint64_t hash = 0;  ///< StepHash of all outcomes so far.
+  std::uint16_t hash = 0;  ///< Lowest bits of the StepHash of all outcomes so far.
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [failed, has_event, advances, until, bodies, answers, rotations, hash] = self;
+    constexpr std::size_t many = 15;  // further answers are counted behind the head
+    auto head = static_cast<std::uint8_t>((failed ? 1 : 0) | (has_event ? 2 : 0) | (advances ? 4 : 0) |
+                                          (rotations.empty() ? 0 : 8) | std::min(answers.size(), many) << 4);
+    archive(head);
+    Varint more{answers.size() - std::min(answers.size(), many)};
+    if (head >> 4 == many) archive(more);
+    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(self)>>) {
+      failed = (head & 1) != 0;
+      has_event = (head & 2) != 0;
+      advances = (head & 4) != 0;
+      answers.clear();
+      const std::uint64_t count = (head >> 4) + (head >> 4 == many ? more.value : 0);
+      for (std::uint64_t k = 0; k < count && !archive.failed(); ++k) archive(answers.emplace_back());
+    } else {
+      for (const Answer& answer : answers) archive(answer);
+    }
+    if (advances)
+      archive(until);
+    else
+      archive(bodies);
+    if (head & 8) archive(rotations);
+    archive(hash);
+  }
 };
 
 /// The last step of a recording.
@@ -180,12 +245,16 @@ using Step =
                  step::SetSensorClass, step::SetUserData, step::End, step::SleepBody, step::Wake,
                  step::SetShape, step::SetMass, step::AddMovingShape, step::AddRigidBody,
                  step::SetAngularVelocity, step::SetRotation, step::SetRadiusRate, step::SetRotationProbe,
-                 step::Schedule, step::Unschedule, step::SetPairState, step::TurnBack>;
+                 step::Schedule, step::Unschedule, step::SetPairState, step::TurnBack, step::Rebound>;
 
-/// Running hash over the outcomes of all steps so far: events to the last bit, and all work counters.
+/// Running hash over the questions and outcomes of all steps so far: bodies and times, events to the last
+/// bit, and all work counters.
 class StepHash {
  public:
-  void add(const World& world, const step::Asking& asking);
+  /// Takes note of a call of the probe.
+  void ask(std::span<const BodyId> bodies, double time);
+  /// Takes note of the outcome of a step, after all of its questions.
+  void add(const World& world, bool failed, const std::optional<Event>& event);
   std::uint64_t value() const { return sum_; }
 
  private:
@@ -198,7 +267,9 @@ struct RecordingContent {
   std::vector<std::byte> snapshot{};
   bool has_pair_filter = false;
   bool has_rotation_probe = false;
-  std::vector<Step> steps{};
+  std::vector<std::byte> steps{};  ///< one Step after the other
+  std::size_t step_count = 0;
+  bool needs_pair_filter = false;  ///< at the start or later
 };
 
 Result<RecordingContent> read_content(std::span<const std::byte> recording);

@@ -8,7 +8,7 @@ namespace kinesphere {
 
 template <class Change>
 World::WorldEditor World::changing(const Change& change) {
-  if (recorder_) recorder_->note(change);
+  if (recorder_) recorder_->note(*this, change);
   return changeable().changes();
 }
 

@@ -10,6 +10,7 @@
 #include "input/input_check.hpp"
 #include "kinesphere/queries.hpp"
 #include "number/bit_cast.hpp"
+#include "recording/expectation.hpp"
 #include "recording/step.hpp"
 
 namespace kinesphere {
@@ -31,54 +32,51 @@ std::string outcome_text(const std::optional<Event>& event, bool failed) {
   return text + " at time " + text_of(event->time);
 }
 
-std::vector<std::byte> bytes_of(const std::optional<Event>& event) {
-  ByteWriter writer;
-  writer(event);
-  return writer.take();
-}
-
 bool same_bits(double a, double b) { return bit_cast<std::uint64_t>(a) == bit_cast<std::uint64_t>(b); }
 
-/// Returns the recorded answers while the questions match the recording. The first question that differs gets
-/// a NaN position, which makes the asking call fail.
+/// Returns the recorded answers of a step. The first question that has none gets a NaN position, which makes
+/// the asking call fail.
 class RecordedProbe {
  public:
-  explicit RecordedProbe(const std::vector<step::Answer>& answers) : answers_(answers) {}
+  RecordedProbe(const World& world, const std::vector<step::Answer>& answers, Expectation& expectation,
+                StepHash& hash)
+      : world_(world), answers_(answers), expectation_(expectation), hash_(hash) {}
 
   void operator()(std::span<const BodyId> ids, double time, std::span<State> states) {
+    hash_.ask(ids, time);
+    last_call_ = given_.size();
     for (std::size_t k = 0; k < ids.size() && difference_.empty(); ++k) {
-      const step::Answer* const answer = next_ < answers_.size() ? &answers_[next_] : nullptr;
-      const bool same = answer && answer->report.body == ids[k] && same_bits(answer->report.time, time) &&
-                        answer->last == (k + 1 == ids.size());
-      if (!same) {
-        difference_ = expected() + ", but found a probe of " + text_of(ids[k]) + " at time " + text_of(time);
-        if (ids.size() > 1)
-          difference_ += ", number " + std::to_string(k + 1) + " of " + std::to_string(ids.size());
-        break;
+      if (given_.size() == answers_.size()) {
+        constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+        states[k].position = {nothing, nothing, nothing};
+        difference_ = "expected no further probe, but found a probe of " + text_of(ids[k]) + " at time " +
+                      text_of(time);
+        return;
       }
-      states[k] = answer->report.state;
-      ++next_;
+      states[k] = expectation_.answer(world_, ids[k], time, answers_[given_.size()]);
+      given_.push_back({time, ids[k], states[k]});
     }
-    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-    if (!difference_.empty() && !ids.empty()) states[0].position = {nothing, nothing, nothing};
   }
 
   /// Describes the first deviation from the recording; empty if there was none.
   std::string difference() const {
-    if (!difference_.empty() || next_ == answers_.size()) return difference_;
-    return expected() + ", but found the end of the call";
+    if (!difference_.empty() || given_.size() == answers_.size()) return difference_;
+    return "expected " + std::to_string(answers_.size()) + " probes, but found the end of the call after " +
+           std::to_string(given_.size());
+  }
+
+  /// Returns the answers that were given; those of the last call do not count if it failed.
+  std::span<const ProbedState> accepted(bool failed) const {
+    return std::span(given_).first(failed ? last_call_ : given_.size());
   }
 
  private:
-  std::string expected() const {
-    if (next_ >= answers_.size()) return "expected no further probe";
-    const ProbedState& report = answers_[next_].report;
-    return "expected a probe of " + text_of(report.body) + " at time " + text_of(report.time) +
-           (answers_[next_].last ? ", the last of its call" : "");
-  }
-
+  const World& world_;
   const std::vector<step::Answer>& answers_;
-  std::size_t next_ = 0;
+  Expectation& expectation_;
+  StepHash& hash_;
+  std::vector<ProbedState> given_;
+  std::size_t last_call_ = 0;  ///< number of answers before it
   std::string difference_;
 };
 
@@ -87,33 +85,50 @@ class RecordedProbe {
 class Replay::Player {
  public:
   Player(World world, RecordingContent content, PairFilter pair_filter)
-      : world_(std::move(world)), steps_(std::move(content.steps)), pair_filter_(std::move(pair_filter)) {
+      : world_(std::move(world)),
+        bytes_(std::move(content.steps)),
+        steps_(bytes_),
+        step_count_(content.step_count),
+        pair_filter_(std::move(pair_filter)) {
     set_rotation_probe(content.has_rotation_probe).value();
   }
 
   Result<std::optional<Event>> advance() {
+    probed_.clear();
     while (!finished()) {
       if (divergence_) return *divergence_;
-      const Step& step = steps_[next_];
-      std::visit([this](const auto& each) { repeat(each); }, step);
+      steps_(step_);
+      std::visit([this](const auto& each) { repeat(each); }, step_);
       if (divergence_) return *divergence_;
       ++next_;
-      const auto* asking = std::get_if<step::Asking>(&step);
-      if (asking && asking->until) return asking->event;
+      const auto* asking = std::get_if<step::Asking>(&step_);
+      if (asking && asking->advances) return event_;
     }
     return std::optional<Event>();
   }
 
-  bool finished() const { return next_ == steps_.size(); }
+  bool finished() const { return next_ == step_count_; }
   const World& world() const { return world_; }
   std::size_t step() const { return next_; }
-  std::size_t step_count() const { return steps_.size(); }
+  std::size_t step_count() const { return step_count_; }
   std::uint64_t hash() const { return hash_.value(); }
+  std::span<const ProbedState> probed_states() const { return probed_; }
 
  private:
   template <class Change>
   void repeat(const Change& change) {
+    expectation_.note(world_, change);
     require(change.repeat(world_));
+  }
+
+  void repeat(const step::Rebound& rebound) {
+    const auto change = expectation_.change_of(world_, rebound);
+    if (!change) return diverge("expected an event that turns a body, but found none");
+    expectation_.note(world_, *change);
+    if (rebound.spin)
+      require(std::get<step::SetAngularVelocity>(*change).repeat(world_));
+    else
+      require(std::get<step::SetVelocity>(*change).repeat(world_));
   }
 
   void repeat(const step::SetPairFilter& change) {
@@ -132,33 +147,39 @@ class Replay::Player {
   }
 
   void repeat(const step::Asking& recorded) {
-    step::Asking found;
     rotations_.start(recorded.rotations, recorded.failed);
-    RecordedProbe probe(recorded.answers);
+    RecordedProbe probe(world_, recorded.answers, expectation_, hash_);
     std::string refused;
-    if (recorded.until) {
-      const auto event = world_.advance(*recorded.until, probe);
-      found.failed = !event;
-      if (event) found.event = *event;
+    bool failed = false;
+    event_.reset();
+    if (recorded.advances) {
+      until_ = recorded.until.number(0, until_);
+      const auto event = world_.advance(until_, probe);
+      failed = !event;
+      if (event) event_ = *event;
       if (!event) refused = event.error().message;
+      expectation_.note(event_);
     } else {
-      const auto refreshed = refresh(recorded, probe);
-      found.failed = !refreshed;
+      const auto refreshed = world_.queries(probe).refresh(recorded.bodies);
+      failed = !refreshed;
       if (!refreshed) refused = refreshed.error().message;
     }
-    hash_.add(world_, found);
+    hash_.add(world_, failed, event_);
     if (const auto difference = probe.difference(); !difference.empty()) return diverge(difference);
     if (!rotations_.are_complete())
       return diverge("expected the rotations of other bodies, or at other times, to be asked for");
-    if (found.failed == recorded.failed && bytes_of(found.event) == bytes_of(recorded.event)) {
-      if (hash_.value() == recorded.hash) return;
-      return diverge("expected the hash " + hex(recorded.hash) + ", but found " + hex(hash_.value()) + ": " +
-                     outcome_text(found.event, found.failed) + " took other work");
+    const std::string came = outcome_text(event_, failed) + (refused.empty() ? "" : ": ") + refused;
+    if (failed != recorded.failed || event_.has_value() != recorded.has_event) {
+      return diverge(std::string("expected ") +
+                     (recorded.failed      ? "a refused answer of the probe"
+                      : recorded.has_event ? "an event"
+                                           : "no event") +
+                     ", but found " + came);
     }
-    const std::string expected = outcome_text(recorded.event, recorded.failed);
-    const std::string came = outcome_text(found.event, found.failed);
-    diverge("expected " + expected + ", but found " +
-            (came == expected ? "it with other figures" : came + (refused.empty() ? "" : ": ") + refused));
+    if (static_cast<std::uint16_t>(hash_.value()) != recorded.hash)
+      return diverge("expected other work or another outcome, but found " + came);
+    const auto accepted = probe.accepted(failed);
+    probed_.insert(probed_.end(), accepted.begin(), accepted.end());
   }
 
   void repeat(const step::End& end) {
@@ -173,17 +194,10 @@ class Replay::Player {
     }
   }
 
-  Result<bool> refresh(const step::Asking& recorded, const Probe& probe) {
-    std::vector<BodyId> bodies;
-    for (const step::Answer& answer : recorded.answers) bodies.push_back(answer.report.body);
-    return world_.queries(probe).refresh(bodies);
-  }
-
   void diverge(const std::string& what) {
-    divergence_ =
-        Error{ErrorCode::diverged, "recording", no_body,
-              "Replay::advance: recording, step " + std::to_string(next_ + 1) + " of " +
-                  std::to_string(steps_.size()) + " at time " + text_of(world_.time()) + ": " + what};
+    divergence_ = Error{ErrorCode::diverged, "recording", no_body,
+                        "Replay::advance: recording, step " + std::to_string(next_ + 1) + " of " +
+                            std::to_string(step_count_) + " at time " + text_of(world_.time()) + ": " + what};
   }
 
   /// Returns the recorded rotations of a call while the questions match the recording.
@@ -218,23 +232,25 @@ class Replay::Player {
   };
 
   World world_;
-  std::vector<Step> steps_;
+  std::vector<std::byte> bytes_;
+  ByteReader steps_;
+  std::size_t step_count_;
   PairFilter pair_filter_;
   RecordedRotations rotations_;
-  std::size_t next_ = 0;
+  Expectation expectation_;
   StepHash hash_;
+  std::size_t next_ = 0;
+  Step step_;                        ///< the last one
+  double until_ = 0.0;               ///< argument of the last advance
+  std::optional<Event> event_;       ///< outcome of the last step
+  std::vector<ProbedState> probed_;  ///< of the last advance()
   std::optional<Error> divergence_;
 };
 
 Result<Replay> Replay::open(std::span<const std::byte> recording, PairFilter pair_filter) {
   auto content = read_content(recording);
   if (!content) return content.error();
-  bool needs_filter = content->has_pair_filter;
-  for (const Step& step : content->steps) {
-    const auto* set = std::get_if<step::SetPairFilter>(&step);
-    needs_filter = needs_filter || (set && set->given);
-  }
-  if (needs_filter && !pair_filter) {
+  if (content->needs_pair_filter && !pair_filter) {
     return Error{ErrorCode::out_of_range, "pair_filter", no_body,
                  "Replay::open: pair_filter must be given, as the recorded world had one, but is empty"};
   }
@@ -250,9 +266,26 @@ Replay::~Replay() = default;
 
 Result<std::optional<Event>> Replay::advance() { return player_->advance(); }
 bool Replay::finished() const { return player_->finished(); }
+std::span<const ProbedState> Replay::probed_states() const { return player_->probed_states(); }
 const World& Replay::world() const { return player_->world(); }
 std::size_t Replay::step() const { return player_->step(); }
 std::size_t Replay::step_count() const { return player_->step_count(); }
 std::uint64_t Replay::hash() const { return player_->hash(); }
+
+Result<RecordedRun> read_recording(std::span<const std::byte> recording, PairFilter pair_filter) {
+  auto replay = Replay::open(recording, std::move(pair_filter));
+  if (!replay) return replay.error();
+  RecordedRun run;
+  run.start_time = replay->world().time();
+  while (!replay->finished()) {
+    const auto event = replay->advance();
+    if (!event) return event.error();
+    if (*event) run.events.push_back(**event);
+    const auto probed = replay->probed_states();
+    run.probed_states.insert(run.probed_states.end(), probed.begin(), probed.end());
+  }
+  run.end_time = replay->world().time();
+  return run;
+}
 
 }  // namespace kinesphere

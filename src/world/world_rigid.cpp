@@ -18,7 +18,7 @@ Result<void> World::set_rotation_probe(RotationProbe probe) {
   auto valid = Preconditions(*this, "set_rotation_probe").idle();
   if (!valid) return valid;
   if (recorder_) {
-    recorder_->note(step::SetRotationProbe{static_cast<bool>(probe)});
+    recorder_->note(*this, step::SetRotationProbe{static_cast<bool>(probe)});
     probe = recorder_->listen_to(std::move(probe));
   }
   changeable().changes().set_rotation_probe(std::move(probe));

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "stream/any_monitor.hpp"
+#include "stream/any_bytes.hpp"
 #include "stream/any_reports.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

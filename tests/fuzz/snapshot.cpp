@@ -1,5 +1,5 @@
 // libFuzzer target: any bytes as a snapshot of a world.
-#include "stream/any_snapshot.hpp"
+#include "stream/any_bytes.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

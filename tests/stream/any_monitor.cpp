@@ -1,5 +1,5 @@
 // Feeds a monitor snapshots that no monitor has written.
-#include "stream/any_monitor.hpp"
+#include "stream/any_bytes.hpp"
 
 #include <array>
 #include <cstring>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kinesphere/random.hpp"
-#include "stream/any_monitor.hpp"
+#include "stream/any_bytes.hpp"
 #include "stream/damage.hpp"
 
 namespace kinesphere::any_reports_test {

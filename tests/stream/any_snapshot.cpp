@@ -1,5 +1,5 @@
 // Feeds a world snapshots that no world has written.
-#include "stream/any_snapshot.hpp"
+#include "stream/any_bytes.hpp"
 
 #include <utility>
 

@@ -6,10 +6,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "stream/any_monitor.hpp"
+#include "stream/any_bytes.hpp"
 #include "stream/any_reports.hpp"
-#include "stream/any_snapshot.hpp"
-#include "stream/mended.hpp"
 #include "stream/player.hpp"
 
 namespace kinesphere::stream::corpus_test {

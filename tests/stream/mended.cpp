@@ -1,4 +1,4 @@
-#include "stream/mended.hpp"
+#include "stream/any_bytes.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -297,20 +297,20 @@ void use(World world) {
 }
 
 void replay(const Content& recording) {
-  const auto read = read_recording(recording);
+  const auto read = read_recording(recording, any_pair);
   auto opened = Replay::open(recording, any_pair);
   if (!opened) {
     demand(opened.error().code == ErrorCode::bad_recording || opened.error().code == ErrorCode::bad_snapshot,
            "a recording is refused with another error");
     return;
   }
-  demand(static_cast<bool>(read), "a recording that can be replayed cannot be read");
   while (!opened->finished()) {
     const auto event = opened->advance();
     if (event) continue;
     demand(event.error().code == ErrorCode::diverged, "a replay ends with another error");
     break;
   }
+  demand(static_cast<bool>(read) == opened->finished(), "a recording is not read as it is replayed");
   if (auto copy = opened->world().clone()) use(std::move(*copy));
 }
 

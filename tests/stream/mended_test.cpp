@@ -1,5 +1,5 @@
 // Replaces numbers in snapshots and recordings at random by strange ones.
-#include "stream/mended.hpp"
+#include "stream/any_bytes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
 #include "kinesphere/recording.hpp"
-#include "recording/format.hpp"
+#include "recording/step.hpp"
 #include "tracks/reading_summary.hpp"
 #include "tracks/track_file.hpp"
 #include "view/track_table.hpp"
