@@ -78,7 +78,7 @@ void coil(std::uint32_t beads, std::uint64_t seed, Coil& found) {
     found.square_end_to_end += norm_squared(whole);
   };
   world.schedule({.time = 0.5, .period = 0.5}).value();
-  world.run(1200.0, source, respond, hear).value();
+  world.run(900.0, source, respond, hear).value();
 }
 
 }  // namespace

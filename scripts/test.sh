@@ -21,5 +21,5 @@ fi
 scripts/setup.sh "$packages"
 cmake --preset "$preset"
 cmake --build --preset "$preset"
-# One more than there are processors, since some tests mostly wait.
-exec ctest --preset "$tests" --parallel $(($(nproc) + 1)) "$@"
+# Two more than there are processors, since some tests mostly wait.
+exec ctest --preset "$tests" --parallel $(($(nproc) + 2)) "$@"
