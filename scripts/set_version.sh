@@ -10,7 +10,6 @@ number='[0-9]+\.[0-9]+\.[0-9]+'
 places=(
   'CMakeLists.txt project\(kinesphere VERSION '
   'CITATION.cff version: '
-  'packaging/vcpkg/kinesphere/vcpkg.json   "version": "'
   'packaging/debian/changelog kinesphere \('
   'browser/package/package.json   "version": "'
   'browser/viewer/package.json   "version": "'

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing here. Where none is, it does nothing, without network.
-# Usage: setup.sh run | program | mpi | mpich | browser | python | research | prove | docs | test | windows | all | coverage
+# Usage: setup.sh run | program | mpi | mpich | browser | python | research | prove | docs | test | windows | packages | all | coverage
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev)
@@ -20,6 +20,8 @@ documenting=(mkdocs mkdocs-material doxygen)
 testing=("${mpi[@]}" "${documenting[@]}" "${python[@]}" "${python_testing[@]}" "${clients[@]}" libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind xz-utils)
 # For Windows, cross-compiled and run under Wine.
 windows=(g++-mingw-w64-x86-64-posix wine wine64 googletest dpkg-dev)
+# For packages that people install.
+packaging=(debhelper dh-python lintian debootstrap help2man python3-build nuget binutils)
 case ${1:-} in
   run | program) ;;
   mpi) packages+=("${mpi[@]}") ;;
@@ -29,11 +31,12 @@ case ${1:-} in
   research) packages+=(gnuplot-nox libbullet-dev libfcl-dev libgtest-dev librapidcheck-dev clang clang-format clang-tidy black) ;;
   test) packages+=("${testing[@]}") ;;
   windows) packages=(g++ cmake ninja-build "${windows[@]}") ;;
-  all) packages+=("${testing[@]}" "${browser[@]}" chromium "${proving[@]}") ;;
+  all) packages+=("${testing[@]}" "${browser[@]}" chromium "${proving[@]}" "${packaging[@]}") ;;
+  packages) packages+=("${packaging[@]}" "${python[@]}" "${clients[@]}") ;;
   docs) packages+=("${documenting[@]}" "${python[@]}") ;;
   prove) packages=("${proving[@]}" g++ libgtest-dev) ;;
   coverage) packages+=("${testing[@]}" gcovr) ;;
-  *) echo "setup: usage: setup.sh run | program | mpi | mpich | browser | python | research | prove | docs | test | windows | all | coverage" >&2 && exit 2 ;;
+  *) echo "setup: usage: setup.sh run | program | mpi | mpich | browser | python | research | prove | docs | test | windows | packages | all | coverage" >&2 && exit 2 ;;
 esac
 
 if ! command -v apt-get >/dev/null; then
