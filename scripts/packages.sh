@@ -14,8 +14,10 @@ root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
 "$root/scripts/setup.sh" packages
 work=$(mktemp -d)
 into=$work/packages
+# Debian's, for which its packages are.
+python=${PYTHON:-/usr/bin/python3}
 if [[ ${1:-} == --into ]]; then into=$(realpath -m "$2") && shift 2; fi
-trap 'umount -q "$work/bare/proc" || true; rm -rf "$work"' EXIT
+trap '! mountpoint -q "$work/bare/proc" || umount "$work/bare/proc"; rm -rf "$work"' EXIT
 mkdir -p "$into"
 quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }; }
 fail() { echo "packages: $*" >&2 && exit 1; }
@@ -64,8 +66,8 @@ c_library() {
 
 wheel() {
   local dist=$work/dist files=$work/wheel_files
-  quietly env -C "$sources/python" python3 -m build --no-isolation --skip-dependency-check --outdir "$dist" .
-  python3 -m zipfile -e "$dist"/*.whl "$files"
+  quietly env -C "$sources/python" "$python" -m build --no-isolation --skip-dependency-check --outdir "$dist" .
+  "$python" -m zipfile -e "$dist"/*.whl "$files"
   # What auditwheel asks of a manylinux wheel: no library that a system may lack, no newer glibc than this one's.
   local needed
   needed=$(objdump -p "$files"/kinesphere/*.so* | sed -n 's/ *NEEDED *//p' | sort -u |
@@ -75,7 +77,7 @@ wheel() {
   glibc=$(objdump -T "$files"/kinesphere/*.so* | grep -oE 'GLIBC_[0-9.]+' | sort -uV | tail -n 1)
   echo "the wheel needs ${glibc/_/ } or later"
   # A virtual environment that sees NumPy and no Highway.
-  python3 -m venv --system-site-packages --without-pip "$work/venv"
+  "$python" -m venv --system-site-packages --without-pip "$work/venv"
   quietly "$work/venv/bin/python" -m pip --isolated install --no-index --no-deps "$dist"/*.whl
   "$work/venv/bin/python" -c "$ten_lines"
   LD_DEBUG=libs "$work/venv/bin/python" -c 'import kinesphere' 2>&1 | grep -q 'calling init: .*kinesphere/libhwy' ||
