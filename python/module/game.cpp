@@ -120,11 +120,14 @@ py::object events_of_game(const py::object& self, double until) {
   return py::module_::import("builtins").attr("iter")(next, py::none());
 }
 
-/// An array of shape (n, 3), which stays as it is when the game goes on.
+/// An array of shape (n, 3), which stays as it is when the game goes on, and cannot be taken for a way to
+/// move bodies.
 py::object array_of_all(std::span<const Vec3> vectors) {
   NewArray made = new_doubles({vectors.size(), 3});
   std::copy(vectors.begin(), vectors.end(), reinterpret_cast<Vec3*>(made.data<double>()));
-  return made.take();
+  py::object array = made.take();
+  array.attr("flags").attr("writeable") = false;
+  return array;
 }
 
 }  // namespace
@@ -176,11 +179,14 @@ The last body takes the place of a removed one. These three arrays are copies, w
       .def_property_readonly(
           "positions",
           looking("positions", [](const GameWorld& game) { return array_of_all(game.positions()); }),
-          "Where they are, in the order of ids: shape (n, 3). On periodic axes positions lie in the box.")
+          "Where they are, in the order of ids: shape (n, 3), a copy that cannot be changed; teleport() "
+          "moves "
+          "bodies. On periodic axes positions lie in the box.")
       .def_property_readonly(
           "velocities",
           looking("velocities", [](const GameWorld& game) { return array_of_all(game.velocities()); }),
-          "Their velocities, in the order of ids: shape (n, 3).")
+          "Their velocities, in the order of ids: shape (n, 3), a copy that cannot be changed; "
+          "set_velocities() gives them others.")
       .def(
           "index_of",
           [](GameHandle& handle, const py::object& body) {

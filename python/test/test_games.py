@@ -23,6 +23,9 @@ def test_a_game_moves_its_bodies() -> None:
     assert len(game.step(0.5)) == 0 and game.time == 0.5
     assert game.ids.tolist() == [ball] and game.velocities.tolist() == [[0, 0, -5]]
     before = game.positions
+    for array in (before, game.velocities):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1
     assert before == pytest.approx(np.array([[5, 5, 3.75]]), abs=1e-12)
     others = game.add([(2, 2, 2), (8, 8, 8)], radii=[0.5, 1])
     game.remove(ball)
