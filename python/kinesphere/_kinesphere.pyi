@@ -877,6 +877,7 @@ class World:
     # Advancing.
     def advance(self, until: float, probe: Probe) -> Optional[Event]: ...
     def events(self, until: float, probe: Probe) -> EventIterator: ...
+    @overload
     def run(
         self,
         until: float,
@@ -887,7 +888,21 @@ class World:
         at_stop: Optional[Callable[[Event], object]] = None,
         threads: Union[int, Workers] = 1,
         progress: Union[bool, Callable[[float], object], None] = None,
+        events: Literal["all", "none"] = "all",
     ) -> Events: ...
+    @overload
+    def run(
+        self,
+        until: float,
+        motion: Probe,
+        respond: Optional[Response] = None,
+        *,
+        sink: Optional[Callable[[Event], object]] = None,
+        at_stop: Optional[Callable[[Event], object]] = None,
+        threads: Union[int, Workers] = 1,
+        progress: Union[bool, Callable[[float], object], None] = None,
+        events: Union[list[str], tuple[str, ...]],
+    ) -> Table: ...
 
     # Certificates as answers, and queries.
     @overload

@@ -1,5 +1,6 @@
 #include "events.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <limits>
@@ -51,7 +52,62 @@ std::string text_of(const Event& event) {
   return text + ">";
 }
 
+/// Returns the bytes of a number or vector of this type of NumPy, such as "f8" or "3f8".
+std::size_t size_of(std::string_view type) {
+  const std::size_t count = type.size() == 3 ? static_cast<std::size_t>(type.front() - '0') : 1;
+  return type == "?" ? 1 : count * static_cast<std::size_t>(type.back() - '0');
+}
+
+const Field& column(const std::string& name) {
+  const auto found =
+      std::ranges::find_if(event_fields, [&](const Field& field) { return field.name == name; });
+  if (found != std::end(event_fields)) return *found;
+  throw BadResult({ErrorCode::out_of_range, "events", no_body,
+                   "run: events must name columns of Event, but there is no " + name});
+}
+
 }  // namespace
+
+void KeptEvents::choose(const py::object& events) {
+  KeptEvents chosen;
+  const bool is_word = py::isinstance<py::str>(events);
+  const std::string word = is_word ? events.cast<std::string>() : "";
+  chosen.all_ = word == "all";
+  if (is_word && word != "all" && word != "none")
+    throw BadResult({ErrorCode::out_of_range, "events", no_body,
+                     "run: events must be \"all\", \"none\" or a list of columns, but is \"" + word + "\""});
+  if (!chosen.all_) {
+    chosen.parts_.clear();
+    chosen.row_size_ = 0;
+    for (const py::handle name : is_word ? py::object(py::tuple()) : events) {
+      Field field = column(name.cast<std::string>());
+      chosen.parts_.emplace_back(field.offset, size_of(field.type));
+      field.offset = std::exchange(chosen.row_size_, chosen.row_size_ + size_of(field.type));
+      chosen.columns_.push_back(field);
+    }
+  }
+  if (!rows_.empty() && chosen.parts_ != parts_) {
+    throw BadResult(
+        {ErrorCode::run_in_progress, "events", no_body,
+         "run: events must be as in the run that was interrupted, whose events come first, but are others"});
+  }
+  chosen.rows_ = std::move(rows_);
+  *this = std::move(chosen);
+}
+
+void KeptEvents::add(const EventRecord& record) {
+  const auto* const bytes = reinterpret_cast<const std::byte*>(&record);
+  for (const auto& [offset, size] : parts_) rows_.insert(rows_.end(), bytes + offset, bytes + offset + size);
+}
+
+py::object KeptEvents::take() {
+  const std::vector<std::byte> rows = std::exchange(rows_, {});
+  if (row_size_ == 0) return table_of({});
+  NewArray array({rows.size() / row_size_},
+                 row_type(all_ ? std::span<const Field>(event_fields) : columns_, row_size_), row_size_);
+  if (!rows.empty()) std::memcpy(array.data<std::byte>(), rows.data(), rows.size());
+  return all_ ? package_attribute("kinesphere.events", "Events")(array.take()) : array.take();
+}
 
 py::object table_of(std::span<const EventRecord> records) {
   static const py::handle type = row_type(event_fields, sizeof(EventRecord)).release();

@@ -243,8 +243,9 @@ class Progress {
 
 py::object run(WorldHandle& handle, double until, const py::object& motion, const py::object& respond,
                const py::object& sink, const py::object& at_stop, const py::object& threads,
-               const py::object& progress) {
+               const py::object& progress, const py::object& events) {
   const auto turn = handle.take("run");
+  handle.undelivered.choose(events);
   handle.require_moved_by_others("run");
   require_added(handle, motion, "run");
   Asked asked(motion, "run", handle.is_plane());
@@ -268,7 +269,7 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
     note_promise(handle, event);
     if (responding && asked.map() != nullptr) require(asked.map()->remove_gone(handle.world, event, answer));
     if (sink.is_none()) {
-      handle.undelivered.push_back(record_of(event));
+      handle.undelivered.add(record_of(event));
       asked.interruptions().look();
     } else {
       asked.interruptions().call([&] { sink(event); });
@@ -286,9 +287,7 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
   if (responding && !responding.settles()) warn_of_jams(handle);
   warn_of_promise(handle, "run");
   warn_of_duration(handle, !has_event && until == before, until, "run");
-  const py::object table = table_of(handle.undelivered);
-  handle.undelivered = {};
-  return table;
+  return handle.undelivered.take();
 }
 
 }  // namespace
@@ -328,7 +327,7 @@ In the loop bodies may be changed, added and removed. When it has run to its end
 it is left early, the world stands at the last event. Each step is an advance().)")
       .def("run", run, py::arg("until"), py::arg("motion"), py::arg("respond") = py::none(), py::kw_only(),
            py::arg("sink") = py::none(), py::arg("at_stop") = py::none(), py::arg("threads") = 1,
-           py::arg("progress") = py::none(),
+           py::arg("progress") = py::none(), py::arg("events") = "all",
            R"(Goes on to time `until` by itself and returns all Events, in order.
 
 motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any
@@ -340,6 +339,9 @@ angular velocity or None), as bounce_rigid() makes it, may take the place of its
 world at this event. It must depend on the event alone, and may not call the world. Removed bodies leave a BodyMap
 and its motions, too.
 sink: a function that is told each Event, in order; then no Events are returned.
+events: "all", "none", or names of columns of Event, such as ("time", "first", "second"): then a structured array of
+these alone is returned, 24 bytes an event in place of 384. The Events of an interrupted run come first in what the next
+one returns, which has to ask for the same.
 at_stop: a function that is told each Event at which the world stops, after the sink. It may change the world, the
 motion and the map as a loop over events() may: add bodies, teleport them. It may not advance the world.
 threads: how many share the asking of many probes at once, or Workers; the outcome is the same.

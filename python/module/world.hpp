@@ -34,8 +34,8 @@ struct WorldHandle {
   std::variant<World, GameWorld> owned;
   World& world;
   InUse in_use{};
-  /// Events that an interrupted run has delivered.
-  std::vector<EventRecord> undelivered{};
+  /// Events of a run; of an interrupted one until the next.
+  KeptEvents undelivered{};
   /// Set while there is a pair filter.
   std::shared_ptr<FilterTrouble> filter_trouble{};
   bool has_rotation_probe = false;

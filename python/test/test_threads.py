@@ -107,7 +107,7 @@ def test_a_slow_probe_of_python_tells_how_far_it_is_too() -> None:
     world.run(10.0, probe, progress=told.append)
     assert len(told) >= 2 and 0 < told[0] < told[-1] == 10.0
     with pytest.raises(TypeError, match="progress must be a bool or a function"):
-        world.run(11.0, motion, progress=3)  # type: ignore[arg-type]
+        world.run(11.0, motion, progress=3)  # type: ignore[call-overload]
 
 
 def test_a_bar_is_drawn_by_tqdm_if_it_is_there(monkeypatch: pytest.MonkeyPatch) -> None:

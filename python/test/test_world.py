@@ -3,6 +3,7 @@
 import copy
 import pickle
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -137,7 +138,7 @@ def test_what_at_stop_raises_comes_out_at_the_stop() -> None:
         "contact_end",
     ]
     with pytest.raises(TypeError, match="at_stop must be a function of an event, but is 5"):
-        world.run(4.0, bodies, respond, at_stop=5)  # type: ignore[arg-type]
+        world.run(4.0, bodies, respond, at_stop=5)  # type: ignore[call-overload]
 
 
 def test_an_event_says_what_happened() -> None:
@@ -386,6 +387,48 @@ def test_snapshots_clones_copies_and_pickles_go_the_same_way() -> None:
     world.set_pair_filter(lambda a, b: True)
     with pytest.raises(TypeError, match="pair filter"):
         pickle.dumps(world)
+
+
+def test_events_are_kept_as_asked() -> None:
+    scene = ks.Scene("paper1", bodies=60, seconds=2.0)
+
+    def made() -> tuple[ks.World, ks.Motion]:
+        world, motion = ks.World(**scene.definition), scene.motion()
+        world.add_motion(motion, scene.radii)
+        return world, motion
+
+    def run(**asked: Any) -> Any:
+        world, motion = made()
+        return world.run(2.0, motion, scene, **asked)
+
+    every = run()
+    columns = ("time", "first", "normal", "repeated", "kind")
+    some = run(events=columns)
+    assert some.dtype.names == columns and some.dtype.itemsize == 8 + 8 + 24 + 1 + 1
+    assert len(every) > 20 and all((some[name] == every[name]).all() for name in columns)
+    assert len(run(events="none")) == len(run(events=[])) == 0
+    assert run(events="all").array.tobytes() == every.array.tobytes()
+    for wrong in ("some", ["time", "frist"]):
+        with pytest.raises(ks.InvalidValue, match="run: events must"):
+            run(events=wrong)
+
+    # Those of an interrupted run come first in what the next one returns.
+    told = 0
+
+    def stumble(event: ks.Event) -> None:
+        nonlocal told
+        told += 1
+        if told == 10:
+            raise KeyError("stumbled")
+
+    world, motion = made()
+    silent, _ = made()
+    expected = silent.run(2.0, scene.motion(), lambda event: None, events=["time"])
+    with pytest.raises(KeyError, match="stumbled"):
+        world.run(2.0, motion, stumble, events=["time"])
+    with pytest.raises(ks.StateError, match="as in the run that was interrupted"):
+        world.run(2.0, motion, stumble)
+    assert (world.run(2.0, motion, stumble, events=["time"]) == expected).all()
 
 
 def test_recordings_are_repeated_without_the_motion() -> None:

@@ -246,8 +246,8 @@ def test_wrong_kinds_of_things_are_named() -> None:
         (lambda: things.w.body(2**70), ks.BodyError, "body"),
         (lambda: things.w.body(None), ks.BodyError, "body"),  # type: ignore[arg-type]
         (lambda: things.w.body("0"), TypeError, "must be the id of a body"),  # type: ignore[arg-type]
-        (lambda: things.w.run(1, 5), TypeError, "probe must be a motion or a function"),  # type: ignore[arg-type]
-        (lambda: things.w.run(1, things.motion, 5), TypeError, "respond must be"),  # type: ignore[arg-type]
+        (lambda: things.w.run(1, 5), TypeError, "probe must be a motion or a function"),  # type: ignore[call-overload]
+        (lambda: things.w.run(1, things.motion, 5), TypeError, "respond must be"),  # type: ignore[call-overload]
         (lambda: things.w.run(1, things.probe_that_saves, ks.Bouncing()), TypeError, "loop over world.events"),
         (lambda: things.w.run(1, things.motion, threads=-3), ks.InvalidValue, "threads"),
         (lambda: things.w.add_static((0, 0, 0)), TypeError, "shape must be a Ball, Box, HalfSpace, Triangle or Mesh"),  # type: ignore[arg-type]
@@ -293,15 +293,15 @@ def test_calls_that_fit_no_function_name_the_argument() -> None:
         (lambda: ks.Separation.sphere(dist=3.0), "sphere: there is no argument dist; the nearest is distance"),  # type: ignore[call-arg]
         (lambda: ks.place_spheres(0.5, ((0, 0, 0), (9, 9, 9)), pack=0.2), "place_spheres: there is no argument pack; the nearest is packing"),  # type: ignore[call-arg]
         (lambda: frames.push(positons=[(0, 0, 0)]), "push: there is no argument positons; the nearest is positions"),  # type: ignore[call-overload]
-        (lambda: w.run(1.0), "run: motion is missing"),  # type: ignore[call-arg]
-        (lambda: w.run(1.0, motion, until=2.0), "run: until is given twice"),  # type: ignore[misc]
-        (lambda: w.run(1.0, motion, None, 2), "run: takes at most 3 arguments without a name, but has 4; .*threads.* need theirs"),  # type: ignore[misc, arg-type]
-        (lambda: w.run(motion, 1.0), "run: until must be a number, but is <"),  # type: ignore[arg-type]
+        (lambda: w.run(1.0), "run: motion is missing"),  # type: ignore[call-overload]
+        (lambda: w.run(1.0, motion, until=2.0), "run: until is given twice"),  # type: ignore[call-overload]
+        (lambda: w.run(1.0, motion, None, 2), "run: takes at most 3 arguments without a name, but has 4; .*threads.* need theirs"),  # type: ignore[call-overload]
+        (lambda: w.run(motion, 1.0), "run: until must be a number, but is <"),  # type: ignore[call-overload]
         (lambda: ks.Ball(1.0, (0, 0, 0)), r"Ball: radius must be a number, but is \(0, 0, 0\)"),  # type: ignore[arg-type]
         (lambda: w.add_motion(w), "add_motion: motion must be a Motion, but is <"),  # type: ignore[arg-type]
         (lambda: w.add_zone(ks.Ball((0, 0, 0), 1.0), -1), "add_zone: user_data must be a whole number in its range, but is -1"),
         (lambda: w.set_solid(0, "no"), "set_solid: solid must be True or False, but is 'no'"),  # type: ignore[arg-type]
-        (lambda: w.run(np.datetime64("2024-01-01"), motion), "run: until must be a number, but is "),  # type: ignore[arg-type]
+        (lambda: w.run(np.datetime64("2024-01-01"), motion), "run: until must be a number, but is "),  # type: ignore[call-overload]
         (lambda: motion.states(np.array([0, 1]), 0.1), "states: t must be a number, but is "),  # type: ignore[arg-type]
         (lambda: w.run(1.0, motion, ks.Bouncing), "run: respond must be a Bouncing, a Roughness, a StepPotential, a Scene or a function of an event, but is <class "),  # type: ignore[arg-type]
         (lambda: w.run(1.0, ks.Ballistic), "run: probe must be a motion or a function .*, but is <class "),  # type: ignore[arg-type]
