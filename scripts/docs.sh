@@ -70,24 +70,22 @@ if [[ ${#targets[@]} -gt 0 ]]; then
   quietly cmake --build --preset browser --target "${targets[@]}"
 fi
 if [[ $live == yes ]]; then export KINESPHERE_LIVE=$PWD/build/browser/browser/live; fi
+# Before MkDocs, whose search has the names of this reference, too.
+version=$(sed -n 's/^project(kinesphere VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+mkdir -p "$KINESPHERE_GENERATED"
+doxygen - <<<"$(cat scripts/docs/Doxyfile)
+PROJECT_NUMBER = $version
+OUTPUT_DIRECTORY = $KINESPHERE_GENERATED"
+
 address=$(sed -nE 's/^project\(kinesphere .*HOMEPAGE_URL "(.+)"$/\1/p' CMakeLists.txt)
 if [[ -n $address ]]; then export KINESPHERE_REPOSITORY=$address; fi
 /usr/bin/python3 -m mkdocs build --strict --quiet --site-dir "$site"
+mv "$KINESPHERE_GENERATED/cpp" "$site/reference/cpp"
 if [[ $viewer == yes ]]; then
   cp -r build/browser/browser/viewer "$site/viewer"
   # The other page of the viewer's folder needs a watch that runs.
   rm "$site"/viewer/map.html "$site"/viewer/assets/{map,coast}-*
 fi
-
-version=$(sed -n 's/^project(kinesphere VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
-mkdir -p "$site/reference"
-doxygen -l "$work/layout.xml"
-sed -i 's|<navindex>|&<tab type="user" url="../../index.html" title="Guides"/>|' "$work/layout.xml"
-doxygen - <<<"$(cat scripts/docs/Doxyfile)
-LAYOUT_FILE = $work/layout.xml
-PROJECT_NUMBER = $version
-OUTPUT_DIRECTORY = $site/reference
-HTML_OUTPUT = cpp"
 
 if [[ -x $typedoc ]]; then
   rm -rf "$tools/src" && cp -r browser/package/src browser/package/tsconfig.json browser/package/README.md scripts/docs/typedoc.json "$tools"

@@ -16,7 +16,7 @@ proving=(coq libcoq-flocq)
 # For the clients of the C interface in Rust, which may have come without Debian, and C#.
 clients=(mono-mcs mono-runtime)
 if ! command -v cargo >/dev/null; then clients+=(rustc cargo); fi
-documenting=(mkdocs mkdocs-material doxygen)
+documenting=(mkdocs mkdocs-material doxygen doxygen-awesome-css)
 testing=("${mpi[@]}" "${documenting[@]}" "${python[@]}" "${python_testing[@]}" "${clients[@]}" libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind xz-utils)
 # For Windows, cross-compiled and run under Wine.
 windows=(g++-mingw-w64-x86-64-posix wine wine64 googletest dpkg-dev)

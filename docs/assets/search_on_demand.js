@@ -1,6 +1,9 @@
 // The index of the search is larger than all else that a page loads. It is fetched once somebody searches: the theme takes
 // it from this promise.
 var __search = {
+  // World::ask is a word of World and a word ask. The rest is what the theme does: a quoted phrase has all its words.
+  transform: (words) => words.replaceAll("::", " ").split(/"([^"]+)"/g)
+    .map((part, k) => k % 2 === 1 ? part.replace(/^\b|\s+/g, " +") : part).join("").replace(/"|(?:^|\s+)[*+\-:^~]+(?=\s+|$)/g, "").trim(),
   index: new Promise((resolve) => {
     const wanted = new URLSearchParams(location.search).has("q");
     const base = new URL("..", document.currentScript.src);

@@ -13,6 +13,7 @@ import posixpath
 import re
 import shutil
 import sys
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any, Optional
 
@@ -192,13 +193,42 @@ def on_page_content(html: str, page: Any, **_: Any) -> str:
     return html.replace(f'"{UNCHECKED}', f'"{up}/')
 
 
+def names_of_cpp() -> list[dict[str, str]]:
+    """What the search finds in the reference of C++ and C: each class and each member with a description."""
+    entries = []
+
+    def add(element: Any, words: list[str], place: str) -> None:
+        brief = " ".join("".join(element.find("briefdescription").itertext()).split())
+        if brief:
+            # The search knows whole words alone: World::ask is ask, and of World.
+            title, *scopes = reversed([word for word in words if word not in ("", "kinesphere")])
+            title += "".join(f" · {scope}" for scope in scopes)
+            entries.append({"location": f"reference/cpp/{place}", "title": f"{title} (C++)", "text": brief})
+
+    for path in sorted((generated / "xml").glob("*.xml")):
+        for compound in ElementTree.parse(path).iterfind("compounddef"):
+            page, name = f"{compound.get('id')}.html", compound.findtext("compoundname", "")
+            is_class = compound.get("kind") in ("class", "struct")
+            if is_class:
+                add(compound, name.split("::"), page)
+            scopes = name.split("::") if is_class else []
+            for member in compound.iterfind("sectiondef/memberdef"):
+                # A member of a namespace is told in its file, too: its id names the page that has it.
+                page_of_member, anchor = member.get("id").rsplit("_1", 1)
+                if page_of_member == compound.get("id"):
+                    add(member, [*scopes, member.findtext("name", "")], f"{page_of_member}.html#{anchor}")
+    return entries
+
+
 def on_post_build(config: Any) -> None:
-    """Takes the copies of sources out of the search, where they would hide the guides, and adds the live parts."""
+    """Takes the copies of sources out of the search, where they would hide the guides; adds the names of C++ there, and
+    the live parts to the site."""
     if live is not None:
         shutil.copytree(live, Path(config["site_dir"]) / "assets/live")
     index = Path(config["site_dir"]) / "search/search_index.json"
     content = json.loads(index.read_text())
     content["docs"] = [entry for entry in content["docs"] if not entry["location"].startswith("sources/")]
+    content["docs"] += names_of_cpp()
     texts = " ".join(f"{entry['title']} {entry['text']}" for entry in content["docs"]).lower()
     absent = [word for word in SOUGHT if word.lower() not in texts]
     if absent:

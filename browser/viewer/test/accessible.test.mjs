@@ -1,7 +1,7 @@
 // The rules of axe-core, which are those of Lighthouse, on each page of the documentation and on the viewer; dark and
 // bright, on desktops and phones. KINESPHERE_SITE names the folder of the site, and KINESPHERE_PICTURES one for pictures of
-// all pages, to be looked at. Pages that show sources are all alike: one of them
-// stands for them, and the references of Doxygen and TypeDoc are their own.
+// all pages, to be looked at. Pages that show sources are all alike, so one of them stands for them, as four do for the
+// reference of C++ and C; that of TypeDoc is its own.
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
@@ -14,6 +14,7 @@ const pictures = process.env.KINESPHERE_PICTURES;
 const axe = readFileSync(resolve(process.env.PLAYWRIGHT, "../axe-core/axe.min.js"), "utf8");
 const pages = readdirSync(site, { recursive: true }).map(String).sort()
   .filter((path) => path.endsWith(".html") && !/^(sources|reference\/(cpp|typescript)|viewer)\//.test(path));
+pages.push(...["index", "annotated", "classkinesphere_1_1World", "recording_8hpp"].map((name) => `reference/cpp/${name}.html`));
 pages.push(readdirSync(join(site, "sources"), { recursive: true }).map((path) => `sources/${path}`).find((path) => path.endsWith(".html")));
 
 const isReady = () => document.readyState === "complete" &&
