@@ -10,6 +10,7 @@ from pathlib import Path
 
 import bound
 import charts
+import examples
 import film
 import guides
 import late
@@ -35,6 +36,7 @@ PICTURES = {
     ),
     "tracks": guides.tracks,
     "python": guides.python,
+    "examples": examples.draw,
     "film": film.draw,
     "film-still": lambda: film.draw(moving=False),
 }

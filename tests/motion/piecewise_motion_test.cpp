@@ -1,4 +1,4 @@
-// Ready-made trajectories: their ends, their limits, and insufficient smoothness.
+// Ready-made trajectories: their cubic pieces, their ends, their limits, and insufficient smoothness.
 #include "kinesphere/motion/piecewise_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "kinesphere/motion/trajectory.hpp"
 #include "motion/motion_properties.hpp"
 
 namespace kinesphere::piecewise_motion_test {
@@ -79,6 +80,19 @@ TEST(PiecewiseMotion, NamesWhatIsWrong) {
   wrong = there_and_back();
   wrong[0].jerk.x = std::numeric_limits<double>::infinity();
   EXPECT_EQ(error_of(wrong), prefix + ", segment 0, must be finite, but is (inf, 0, 0)");
+}
+
+TEST(Segment, FollowsItsCubic) {
+  const Segment segment{10.0, 14.0, {1, 2, 3}, {4, 5, 6}, {2, 0, -2}, {6, -6, 0}};
+  const State state = segment.state_at(12.0);
+  EXPECT_EQ(state.position, (Vec3{1 + 8 + 4 + 8, 2 + 10 + 0 - 8, 3 + 12 - 4 + 0}));
+  EXPECT_EQ(state.velocity, (Vec3{4 + 4 + 12, 5 + 0 - 12, 6 - 4 + 0}));
+  EXPECT_EQ(segment.acceleration_at(12.0), (Vec3{14, -12, -2}));
+}
+
+TEST(Segment, BeginsExactlyWhereItSays) {
+  const Segment segment{0.1, 0.2, {0.3, 0.7, 1e10}, {1e-3, 1e3, 0.1}, {9, 9, 9}, {7, 7, 7}};
+  EXPECT_EQ(segment.state_at(0.1), (State{segment.position, segment.velocity}));
 }
 
 }  // namespace

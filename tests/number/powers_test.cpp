@@ -1,4 +1,4 @@
-// Powers of two against the math library.
+// Powers of two and roots against the math library.
 #include "number/powers.hpp"
 
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kinesphere/random.hpp"
+#include "number/roots.hpp"
 
 namespace kinesphere::powers_test {
 namespace {
@@ -28,6 +29,12 @@ TEST(Powers, ExponentsAreThoseOfTheLargestPowerBelow) {
   EXPECT_EQ(exponent_of(std::numeric_limits<double>::denorm_min()), -1023);
   EXPECT_EQ(exponent_of(std::numeric_limits<double>::infinity()), 1024);
   EXPECT_EQ(exponent_of(std::numeric_limits<double>::quiet_NaN()), 1024);
+}
+
+TEST(CubeRoot, IsRightToTheLastBits) {
+  for (const double root : {1e-30, 0.001, 0.5, 1.0, 3.0, 1e20}) {
+    EXPECT_NEAR(cube_root(root * root * root), root, 4e-16 * root);
+  }
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ import { Legend } from "./legend.ts";
 import { type Link, linkOf, readLink } from "./link.ts";
 import { makePanel } from "./panel.ts";
 import { Recording } from "./recording.ts";
-import type { TrackTable } from "./scenes/crowd.ts";
 import { sceneAbout, sceneKeys, scenes, setUp } from "./scenes/list.ts";
+import { readTable, type TrackTable } from "./scenes/track_table.ts";
 import { type Colouring, firstSettings } from "./settings.ts";
 import type { Shown, ReportedEvent } from "./shown.ts";
 import { Simulation } from "./simulation.ts";
@@ -53,7 +53,7 @@ const hand = new Hand(stage, () => (shown instanceof Simulation && shown.canBePu
 /** The time that a link or the timeline asks for, until it is reached. */
 let goal: number | null = null;
 const timeline = new Timeline((time) => seek(time));
-/** The tracks that the server was given. */
+/** The tracks that the server was given, or that were dropped. */
 let opened: TrackTable | null = null;
 
 function show(next: Shown): void {
@@ -225,15 +225,32 @@ function openRecording(name: string, bytes: ArrayBuffer): void {
     setPlaying(true);
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
-    const begin = String.fromCharCode(...new Uint8Array(bytes.slice(0, recordingMark.length)));
-    const reason = begin === recordingMark ? message
-      : `This page opens recordings of worlds; kinesphere view ${name} shows tables and messages of positions.`;
-    hud.say(error instanceof KinesphereError ? `${name} cannot be shown. ${reason}` : message);
+    hud.say(error instanceof KinesphereError ? `${name} cannot be shown. ${message}` : message);
   }
 }
 
+/** Shows tracks as they were recorded, as fast as they were. */
+function openTracks(table: TrackTable): void {
+  opened = table;
+  settings.scene = "crowd";
+  chooseScene();
+  settings.speed = 1;
+  refreshPanel();
+}
+
 async function openFile(file: File | undefined): Promise<void> {
-  if (file !== undefined) openRecording(file.name, await file.arrayBuffer());
+  if (file === undefined) return;
+  const bytes = await file.arrayBuffer();
+  const begin = String.fromCharCode(...new Uint8Array(bytes.slice(0, recordingMark.length)));
+  if (begin === recordingMark) return openRecording(file.name, bytes);
+  let table: TrackTable;
+  try {
+    table = readTable(file.name, new TextDecoder().decode(bytes));
+  } catch (error) {
+    return hud.say(`${file.name} cannot be shown: ${(error as Error).message}. This page opens recordings of worlds and simple ` +
+      `tables of positions; kinesphere view ${file.name} shows all tables and messages.`);
+  }
+  openTracks(table);
 }
 
 /** Opens the files that `kinesphere view FILE` serves with the page; its address ends in #opened then. */
@@ -247,9 +264,7 @@ async function openServed(): Promise<void> {
     const files = await (await served("files.json")).json() as { recording: string | null; tracks: string | null };
     if (files.recording !== null) openRecording(files.recording, await (await served("recording")).arrayBuffer());
     if (files.tracks === null) return;
-    opened = await (await served("tracks.json")).json() as TrackTable;
-    settings.scene = "crowd";
-    chooseScene();
+    openTracks(await (await served("tracks.json")).json() as TrackTable);
   } catch (error) {
     sayError(error);
   }

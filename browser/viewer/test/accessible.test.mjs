@@ -1,21 +1,28 @@
-// The rules of axe-core, which are those of Lighthouse, on each page of the documentation and on the viewer; dark and
-// bright, on desktops and phones. KINESPHERE_SITE names the folder of the site, and KINESPHERE_PICTURES one for pictures of
-// all pages, to be looked at. Pages that show sources are all alike, so one of them stands for them, as four do for the
-// reference of C++ and C; that of TypeDoc is its own.
+// All pages of the documentation, dark and bright, on desktops and phones: the rules of axe-core, which are those of
+// Lighthouse, also in the viewer; and how each page looks, coarsely, beside screens.json. KINESPHERE_SITE names the folder of
+// the site. KINESPHERE_PICTURES=FOLDER writes pictures of all pages there, and a new screens.json: look at them before it is
+// committed. Pages that show sources are all alike, so one of them stands for them, as four do for the reference of C++ and
+// C, and three for that of Python; that of TypeDoc is its own.
 import assert from "node:assert/strict";
-import { readdirSync, readFileSync } from "node:fs";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { test } from "node:test";
 
 import { browserForTests } from "./page.mjs";
+import { coarsePicture, difference } from "./screens.mjs";
 
 const site = process.env.KINESPHERE_SITE;
 const pictures = process.env.KINESPHERE_PICTURES;
+const file = new URL("screens.json", import.meta.url);
+const known = pictures === undefined ? JSON.parse(readFileSync(file, "utf8")) : {};
+/** Two pictures of a page in different fonts differ by less. */
+const tolerance = 1;
 const axe = readFileSync(resolve(process.env.PLAYWRIGHT, "../axe-core/axe.min.js"), "utf8");
 const pages = readdirSync(site, { recursive: true }).map(String).sort()
-  .filter((path) => path.endsWith(".html") && !/^(sources|reference\/(cpp|typescript)|viewer)\//.test(path));
+  .filter((path) => path.endsWith(".html") && !/^(sources|reference\/(cpp|python|typescript)|viewer)\//.test(path));
 pages.push(...["index", "annotated", "classkinesphere_1_1World", "recording_8hpp"].map((name) => `reference/cpp/${name}.html`));
-pages.push(readdirSync(join(site, "sources"), { recursive: true }).map((path) => `sources/${path}`).find((path) => path.endsWith(".html")));
+pages.push(...["Events", "Monitor", "World"].map((name) => `reference/python/${name}.html`));
+pages.push("sources/examples/first_contact.cpp.html");
 
 const isReady = () => document.readyState === "complete" &&
   (document.querySelector("script[src*='live.js']") === null || window.kinesphereLive?.discs !== undefined || window.kinesphereLive?.twoBodies !== undefined);
@@ -32,34 +39,83 @@ async function seriousFlaws(page, only = []) {
     nodes.slice(0, 3).map(({ target, any }) => `${id}: ${target} ${any[0]?.message ?? ""}`));
 }
 
-/** Opens each page, and returns what `look` finds there. */
+const desktop = {};
+const phone = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
+const open = (path, options) => ofSite.open(path, { reducedMotion: "reduce", ...options });
+/** Of four: "390 dark" is one. */
+const modeOf = (page, colorScheme) => `${page.viewportSize().width} ${colorScheme}`;
+
+/** Returns what is wrong with how a page looks. */
+async function changeOfLook(page, path, colorScheme) {
+  const mode = modeOf(page, colorScheme);
+  const picture = await coarsePicture(page);
+  if (pictures !== undefined) {
+    await page.screenshot({ path: join(pictures, `${path.replaceAll("/", "-")}-${mode.replace(" ", "-")}.png`), fullPage: true });
+    (known[path] ??= {})[mode] = picture;
+    return [];
+  }
+  if (known[path] === undefined) return ["is new: its pictures have to be made, and looked at (accessible.test.mjs)"];
+  const by = difference(picture, known[path][mode]);
+  return by <= tolerance ? [] : [`${mode}: looks otherwise, by ${by.toFixed(2)}`];
+}
+
+/** Opens each page, and returns what `look` finds there, and whether it looks as it did. */
 async function flawsOfAll(options, look) {
   const found = [];
   for (const path of pages) {
-    const page = await ofSite.open(path, { reducedMotion: "reduce", ...options });
-    found.push(...(await look(page)).map((flaw) => `${path}: ${flaw}`));
-    if (pictures !== undefined)
-      await page.screenshot({ path: join(pictures, `${path.replaceAll("/", "-")}-${page.viewportSize().width}-${options.colorScheme}.png`), fullPage: true });
+    const page = await open(path, options);
+    const flaws = [...await changeOfLook(page, path, options.colorScheme), ...await look(page)];
+    found.push(...flaws.map((flaw) => `${path}: ${flaw}`));
   }
   return found;
 }
 
 test("nothing serious on any page", async () => {
-  assert.deepEqual(await flawsOfAll({ colorScheme: "light" }, (page) => seriousFlaws(page)), []);
+  assert.deepEqual(await flawsOfAll({ ...desktop, colorScheme: "light" }, (page) => seriousFlaws(page)), []);
 });
 
 test("enough contrast on each dark page", async () => {
-  assert.deepEqual(await flawsOfAll({ colorScheme: "dark" }, (page) => seriousFlaws(page, ["color-contrast", "link-in-text-block"])), []);
+  const look = (page) => seriousFlaws(page, ["color-contrast", "link-in-text-block"]);
+  assert.deepEqual(await flawsOfAll({ ...desktop, colorScheme: "dark" }, look), []);
 });
 
 for (const colorScheme of ["light", "dark"])
   test(`on a phone no page is wider than the screen, ${colorScheme}`, async () => {
-    const phone = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, colorScheme };
-    assert.deepEqual(await flawsOfAll(phone, async (page) => {
+    assert.deepEqual(await flawsOfAll({ ...phone, colorScheme }, async (page) => {
       const width = await page.evaluate(() => document.documentElement.scrollWidth);
       return width === 390 ? [] : [`${width} wide`];
     }), []);
   });
+
+test("pictures are known of these pages alone", () => {
+  if (pictures !== undefined) {
+    const lines = Object.entries(known).map(([path, looks]) => `${JSON.stringify(path)}: ${JSON.stringify(looks)}`);
+    writeFileSync(file, `{\n${lines.join(",\n")}\n}\n`);
+  }
+  assert.deepEqual(Object.keys(known).filter((path) => !pages.includes(path)), []);
+});
+
+test("a page looks as it did in other fonts, and otherwise if it is broken", async () => {
+  const tables = ".md-typeset table { min-width: 600px } .md-typeset__scrollwrap, .md-typeset__table { overflow: visible }";
+  const cases = [
+    ["other fonts", "* { font-family: 'DejaVu Serif' !important }", false,
+      ["index.html", "watch.html", "reference/cpp/classkinesphere_1_1World.html"], [desktop, phone], ["light", "dark"]],
+    ["dark on dark", "[data-md-color-scheme='slate'] { --md-typeset-color: #2a2c38; --md-default-fg-color: #333; --live-ink: #222 }",
+      true, ["index.html", "watch.html", "two-bodies.html"], [desktop, phone], ["dark"]],
+    ["dark on dark in the reference", "html.dark-mode { --page-foreground-color: #333 }", true,
+      ["reference/cpp/classkinesphere_1_1World.html"], [desktop, phone], ["dark"]],
+    ["a table too wide for a phone", tables, true, ["worlds.html", "performance.html"], [phone], ["light", "dark"]],
+    ["no demo", ".live-canvas { visibility: hidden }", true, ["index.html", "two-bodies.html"], [desktop, phone], ["light", "dark"]],
+  ];
+  for (const [name, content, isBroken, paths, screens, schemes] of cases)
+    for (const path of paths) for (const screen of screens) for (const colorScheme of schemes) {
+      const page = await open(path, { ...screen, colorScheme });
+      await page.addStyleTag({ content });
+      await page.waitForTimeout(300);
+      const by = difference(await coarsePicture(page), known[path][modeOf(page, colorScheme)]);
+      assert.equal(by > tolerance, isBroken, `${name}, ${path}, ${modeOf(page, colorScheme)}: differs by ${by.toFixed(2)}`);
+    }
+});
 
 for (const colorScheme of ["light", "dark"])
   test(`nothing serious in the viewer, ${colorScheme}`, async () => {

@@ -8,8 +8,7 @@ import { test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { gzipSync } from "node:zlib";
 
-import { browserForTests } from "./page.mjs";
-import { importSource } from "./sources.mjs";
+import { browserForTests, importSource } from "./page.mjs";
 
 const site = process.env.KINESPHERE_SITE;
 const isReady = () => window.kinesphereLive?.discs !== undefined;
@@ -192,6 +191,24 @@ test("it leads to the viewer", async () => {
   await page.waitForFunction(() => window.kinesphereViewer?.pictures > 3, null, { timeout: 60_000 });
 });
 
+test("the reference of C++ follows the switch, leads back, and searches all pages, which find its names", async () => {
+  const page = await inBrowser.open("", { colorScheme: "light" });
+  const colour = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const reference = `${inBrowser.address}reference/cpp/classkinesphere_1_1World.html`;
+  await page.goto(reference);
+  assert.equal(await colour(), "rgb(255, 255, 255)");
+  await page.goto(inBrowser.address);
+  await page.locator("label[title='Dark']").click();
+  await page.goto(reference);
+  assert.equal(await colour(), "rgb(46, 48, 62)");
+  await page.getByRole("searchbox").fill("GameWorld::set_gravity");
+  await page.keyboard.press("Enter");
+  await page.locator(".md-search-result__link[href*='reference/cpp/classkinesphere_1_1GameWorld.html#']").first().click();
+  await page.waitForURL(/classkinesphere_1_1GameWorld/);
+  await page.getByRole("link", { name: "Kinesphere" }).click();
+  await page.waitForFunction(() => window.kinesphereLive?.discs !== undefined);
+});
+
 test("the pages have complained of nothing, and asked nobody else", () => {
   assert.deepEqual(inBrowser.complaints, []);
 });
@@ -199,6 +216,13 @@ test("the pages have complained of nothing, and asked nobody else", () => {
 test("it runs from a folder of files, too", async () => {
   const page = await inBrowser.open(pathToFileURL(join(site, "index.html")).href);
   await page.waitForFunction(() => window.kinesphereLive.discs.simulation.time > 0.02);
+});
+
+test("the reference of C++ is dark as the system is, from a folder of files, too, where nothing can search", async () => {
+  const page = await inBrowser.open();
+  await page.goto(pathToFileURL(join(site, "reference/cpp/index.html")).href);
+  assert.equal(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), "rgb(46, 48, 62)");
+  assert.equal(await page.getByRole("searchbox").count(), 0);
 });
 
 test("without Emscripten the first screen has the film, and says so", () => {

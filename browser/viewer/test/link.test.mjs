@@ -3,8 +3,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { test } from "node:test";
 
-import { browserForTests } from "./page.mjs";
-import { importSource } from "./sources.mjs";
+import { browserForTests, importSource } from "./page.mjs";
 
 const inBrowser = browserForTests();
 const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };

@@ -1,5 +1,5 @@
 // The map of `kinesphere watch --serve` in use: the program, KINESPHERE_PROGRAM, reads a stream that stays open, and
-// serves the page of KINESPHERE_VIEWER.
+// serves the page of KINESPHERE_VIEWER. KINESPHERE_PICTURE=FILE.png makes the picture of the map in docs/watch.md.
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 
@@ -308,3 +308,33 @@ function lab(matrix, colour) {
   const [x, y, z] = product(toXyz, seen).map((value, k) => Math.cbrt(value / [0.9505, 1, 1.089][k]));
   return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
 }
+
+describe("the picture of docs/watch.md: two ships off the mouth of the Elbe are predicted to pass within a quarter of a mile", {
+  skip: process.env.KINESPHERE_PICTURE === undefined && "KINESPHERE_PICTURE names no file",
+}, () => {
+  const ships = [
+    ["211234560", "SEUTE DEERN", 53.979, 8.3, 13, 92], ["219001234", "MAERSK EINDHOVEN", 53.9735, 8.62, 16, 271],
+    ["244660000", "VOX MAXIMA", 53.92, 8.42, 10, 60], ["211999990", "HELGOLAND", 54.06, 8.2, 18, 140],
+    ["257000002", "NORDLYS", 54.05, 8.6, 11, 205], ["211500100", "PILOT ELBE", 53.94, 8.66, 8, 285],
+    ["211500200", "", 54.02, 8.45, 0, 0],
+  ];
+  /** Returns the rows of all ships, so many seconds after noon. */
+  const rows = (seconds) => ships.map(([mmsi, name, lat, lon, knots, course]) => {
+    const degrees = knots * seconds / 3600 / 60;
+    const angle = course * Math.PI / 180;
+    const place = [lat + degrees * Math.cos(angle), lon + degrees * Math.sin(angle) / Math.cos(lat * Math.PI / 180)];
+    return `${mmsi},2026-03-01T12:00:${String(seconds).padStart(2, "0")},${place.map((each) => each.toFixed(6)).join(",")},${knots},${course},511,${name}\n`;
+  }).join("");
+
+  test("is made", async () => {
+    const watch = new Watch("--format", "ais", "--separation", "sphere:0.5NM:30min");
+    after(() => watch.process.kill());
+    watch.write("MMSI,BaseDateTime,LAT,LON,SOG,COG,Heading,VesselName\n");
+    for (let seconds = 0; seconds < 60; seconds += 10) watch.write(rows(seconds));
+    const viewport = { width: 1200, height: 700 };
+    const page = await inBrowser.open(await watch.address, { reducedMotion: "reduce", colorScheme: "light", viewport });
+    await page.waitForFunction(() => window.kinesphereMap.scene.pairs.length > 0 && window.kinesphereMap.coastSize > 0);
+    await isDrawn(page);
+    await page.screenshot({ path: process.env.KINESPHERE_PICTURE });
+  });
+});

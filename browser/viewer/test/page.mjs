@@ -1,7 +1,8 @@
-// A built page in a browser: KINESPHERE_VIEWER names its folder, KINESPHERE_PACKAGE that of the npm package,
-// CHROMIUM the browser's program, and PLAYWRIGHT, if it is not found otherwise, the folder of playwright-core.
-import { readFile } from "node:fs/promises";
+// A built page in a browser, or its sources in Node.js: KINESPHERE_VIEWER names its folder, KINESPHERE_PACKAGE that of the npm
+// package, CHROMIUM the browser's program, and PLAYWRIGHT, if it is not found otherwise, the folder of playwright-core.
+import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { createServer } from "node:http";
+import { tmpdir } from "node:os";
 import { extname, join, normalize, resolve } from "node:path";
 import { after } from "node:test";
 import { pathToFileURL } from "node:url";
@@ -108,4 +109,24 @@ export function bodyInSight(page, least) {
     }
     return null;
   }, least);
+}
+
+/** Returns what a file of src/ exports, and `load` of the package that it uses. The pages' tools lie beside playwright-core. */
+export async function importSource(file) {
+  const tools = resolve(process.env.PLAYWRIGHT, "..");
+  const { build } = await import(pathToFileURL(join(tools, "esbuild/lib/main.js")).href);
+  const source = new URL(`../src/${file}`, import.meta.url).pathname;
+  const folder = await mkdtemp(join(tmpdir(), "kinesphere-"));
+  const outfile = join(folder, "source.mjs");
+  const kinesphere = pathToFileURL(join(resolve(process.env.KINESPHERE_PACKAGE), "dist/index.js")).href;
+  try {
+    await build({
+      stdin: { contents: `export * from ${JSON.stringify(source)}; export { load } from "kinesphere";`, resolveDir: folder },
+      bundle: true, format: "esm", platform: "node", outfile, logLevel: "error",
+      plugins: [{ name: "package", setup: (made) => made.onResolve({ filter: /^kinesphere$/ }, () => ({ path: kinesphere, external: true })) }],
+    });
+    return await import(pathToFileURL(outfile).href);
+  } finally {
+    await rm(folder, { recursive: true });
+  }
 }

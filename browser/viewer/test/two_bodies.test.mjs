@@ -4,8 +4,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 
-import { browserForTests } from "./page.mjs";
-import { importSource } from "./sources.mjs";
+import { browserForTests, importSource } from "./page.mjs";
 
 const site = process.env.KINESPHERE_SITE;
 const isReady = () => window.kinesphereLive?.twoBodies !== undefined;

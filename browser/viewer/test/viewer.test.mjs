@@ -134,18 +134,28 @@ test("nothing overlaps after that", async () => {
   assert.ok(least > -1e-5, `two bodies overlap by ${-least}`);
 });
 
-test("a broken file, a table and messages are refused with a message, and the scene goes on", async () => {
+/** Drops a file on the page, as a person would. */
+const drop = (name, content) => page.evaluate(([name, content]) => {
+  const files = new DataTransfer();
+  files.items.add(new File([content], name));
+  window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
+}, [name, content]);
+
+test("a broken file, tables that ask for more and messages are refused with a message, and the scene goes on", async () => {
   await page.keyboard.press("Space");
   for (const [name, content, expected] of [
     ["broken.rec", "Kinerc\r\n12345", /^broken\.rec cannot be shown\. .+/],
-    ["walk.csv", "id,time,x,y\n1,0,0,0\n", /^walk\.csv cannot be shown\. .+ kinesphere view walk\.csv shows tables/],
+    ["ships.csv", "id,time,lat,lon\n1,0,0,0\n", /^ships\.csv cannot be shown: a table whose columns .+ kinesphere view ships\.csv shows all tables/],
+    ["extra.csv", "id,t,x,y,vx\n1,0,0,0,0\n", /: a table whose columns/],
+    ["one.csv", "id,time,x,y\n1,0,0,0\n", /: 1 is there at one time alone/],
+    ["word.csv", "id,time,x,y\n1,0,0,far\n", /: line 2 has no number in its column y/],
+    ["short.csv", "id;t;x;y\n1;0;0\n", /: line 2 has 3 cells, and the header 4/],
+    ["back.csv", "id,t,x,y\n1,1,0,0\n1,1,0,0\n", /: line 3: 1 was there at this time/],
+    ["gap.csv", "id,t,x,y\n1,0,0,0\n1,1,0,0\n1,2,0,0\n1,9,0,0\n", /: 1 pauses from 2 to 9/],
+    ["none.csv", "id,t,x,y\n", /: a table without rows/],
     ["ais.nmea", "!AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM1U1Cb069D,0*24\n", /^ais\.nmea cannot .+ kinesphere view ais\.nmea shows .+ messages/],
   ]) {
-    await page.evaluate(([name, content]) => {
-      const files = new DataTransfer();
-      files.items.add(new File([content], name));
-      window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
-    }, [name, content]);
+    await drop(name, content);
     await page.waitForFunction((name) => document.querySelector("#message:not([hidden]) #message-text")?.textContent.startsWith(name), name);
     assert.match(await page.textContent("#message-text"), expected);
   }
@@ -177,6 +187,21 @@ test("a recording is shown to its end", async () => {
   assert.equal(await speed(), 1);
   await page.keyboard.press("r");
   assert.equal(await speed(), 0.3);
+});
+
+test("a table that is dropped is shown, with its own name and speed", async () => {
+  await page.evaluate(() => { window.kinesphereViewer.settings.speed = 0.3; });
+  const rows = Array.from({ length: 20 }, (_, k) => `anna;${k / 2};${k / 2};0;1\r\nberta;${k / 2};${9 - k / 2};0.2;1`);
+  await drop("two.csv", `\uFEFFID;Time;x;y;z\r\n${rows.join("\r\n")}\r\n`);
+  await page.waitForFunction(() => window.kinesphereViewer.simulation.title === "two.csv");
+  const { reported, speed, playing, title, bodies } = await page.evaluate(() => {
+    const { simulation, settings } = window.kinesphereViewer;
+    const bodies = simulation.bodyCount;
+    return { reported: simulation.run(Infinity).map(({ event }) => event.kind), speed: settings.speed, playing: settings.playing,
+             title: document.querySelector("#title").textContent, bodies };
+  });
+  assert.deepEqual([reported, speed, playing, title, bodies], [["contact_begin", "contact_end"], 1, true, "two.csv", 2]);
+  await page.evaluate(() => window.kinesphereViewer.choose("missed"));
 });
 
 test("a throw while time stands still counts", async () => {

@@ -1,16 +1,7 @@
 // A recorded crowd: each track is a body while it is present.
 import { type Box, type Event, RecordedTracks, World } from "kinesphere";
 import type { LiveScene, SceneChoice, Setup } from "./live_scene.ts";
-
-/** The content of opened/tracks.json, which `kinesphere view FILE` serves. */
-export interface TrackTable {
-  name: string;
-  /** All heights are the same. */
-  plane: boolean;
-  /** Unit of positions, if it is known. */
-  unit: string | null;
-  tracks: { id: string; times: number[]; positions: number[] }[];
-}
+import type { TrackTable } from "./track_table.ts";
 
 /** The begin or the end of a track. */
 interface Change {

@@ -1,6 +1,6 @@
 // The list of scenes to choose from.
 import { bullets } from "./bullets.ts";
-import { crowd, type TrackTable } from "./crowd.ts";
+import { crowd } from "./crowd.ts";
 import { drones } from "./drones.ts";
 import { game } from "./game.ts";
 import { ofLibrary } from "./library.ts";
@@ -9,6 +9,7 @@ import { madeUpCrowd } from "./made_up_crowd.ts";
 import { missed } from "./missed.ts";
 import { piston } from "./piston.ts";
 import { rigidBodies } from "./rigid_bodies.ts";
+import type { TrackTable } from "./track_table.ts";
 
 export interface SceneAbout {
   name: string;

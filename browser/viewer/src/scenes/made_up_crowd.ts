@@ -1,5 +1,5 @@
 // A crowd for a page that was given none: two streams of walkers that cross, and evade no one.
-import type { TrackTable } from "./crowd.ts";
+import type { TrackTable } from "./track_table.ts";
 import { randomNumbers } from "./numbers.ts";
 
 const walkers = 200;
