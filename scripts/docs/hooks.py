@@ -193,30 +193,36 @@ def on_page_content(html: str, page: Any, **_: Any) -> str:
     return html.replace(f'"{UNCHECKED}', f'"{up}/')
 
 
+def brief_of(element: Any) -> str:
+    """What Doxygen tells of a class or member first."""
+    return " ".join("".join(element.find("briefdescription").itertext()).split())
+
+
 def names_of_cpp() -> list[dict[str, str]]:
     """What the search finds in the reference of C++ and C: each class and each member with a description."""
     entries = []
-
-    def add(element: Any, words: list[str], place: str) -> None:
-        brief = " ".join("".join(element.find("briefdescription").itertext()).split())
-        if brief:
-            # The search knows whole words alone: World::ask is ask, and of World.
-            title, *scopes = reversed([word for word in words if word not in ("", "kinesphere")])
-            title += "".join(f" · {scope}" for scope in scopes)
-            entries.append({"location": f"reference/cpp/{place}", "title": f"{title} (C++)", "text": brief})
-
     for path in sorted((generated / "xml").glob("*.xml")):
         for compound in ElementTree.parse(path).iterfind("compounddef"):
-            page, name = f"{compound.get('id')}.html", compound.findtext("compoundname", "")
+            page = f"reference/cpp/{compound.get('id')}.html"
+            name = compound.findtext("compoundname", "").removeprefix("kinesphere::")
+            about = {"title": f"{name} (C++)", "text": brief_of(compound)}
+            # The theme shows a page by its first place.
+            of_page = [{"location": page, **about}, {"location": f"{page}#top", **about}]
             is_class = compound.get("kind") in ("class", "struct")
-            if is_class:
-                add(compound, name.split("::"), page)
-            scopes = name.split("::") if is_class else []
             for member in compound.iterfind("sectiondef/memberdef"):
                 # A member of a namespace is told in its file, too: its id names the page that has it.
-                page_of_member, anchor = member.get("id").rsplit("_1", 1)
-                if page_of_member == compound.get("id"):
-                    add(member, [*scopes, member.findtext("name", "")], f"{page_of_member}.html#{anchor}")
+                of_compound, anchor = member.get("id").rsplit("_1", 1)
+                if of_compound != compound.get("id") or not brief_of(member):
+                    continue
+                # The search knows whole words alone: World::ask is ask, and of World.
+                scopes = name.split("::")[::-1] if is_class else []
+                title = " · ".join([member.findtext("name", ""), *scopes])
+                of_page.append(
+                    {"location": f"{page}#{anchor}", "title": f"{title} (C++)", "text": brief_of(member)}
+                )
+            # The search needs the page of each member.
+            if is_class or len(of_page) > 2:
+                entries += of_page
     return entries
 
 

@@ -203,9 +203,9 @@ test("the reference of C++ follows the switch, leads back, and searches all page
   assert.equal(await colour(), "rgb(46, 48, 62)");
   await page.getByRole("searchbox").fill("GameWorld::set_gravity");
   await page.keyboard.press("Enter");
-  await page.locator(".md-search-result__link[href*='reference/cpp/classkinesphere_1_1GameWorld.html#']").first().click();
+  await page.locator(".md-search-result__link[href*='reference/cpp/classkinesphere_1_1GameWorld.html?h=gameworld+set_gravity#']").first().click();
   await page.waitForURL(/classkinesphere_1_1GameWorld/);
-  await page.getByRole("link", { name: "Kinesphere" }).click();
+  await page.getByRole("link", { name: "Kinesphere", exact: true }).click();
   await page.waitForFunction(() => window.kinesphereLive?.discs !== undefined);
 });
 

@@ -3,7 +3,7 @@
 /** Also the content of opened/tracks.json, which `kinesphere view FILE` serves. */
 export interface TrackTable {
   name: string;
-  /** All heights are the same. */
+  /** All heights are the same, and told as 0. */
   plane: boolean;
   /** Unit of positions, if it is known. */
   unit: string | null;
@@ -55,5 +55,8 @@ export function readTable(name: string, text: string): TrackTable {
     if (gap !== -1) throw new Error(`${id} pauses from ${times[gap]} to ${times[gap + 1]}`);
   }
   if (tracks.size === 0) throw new Error("a table without rows");
-  return { name, plane: heights.size === 1, unit: null, tracks: [...tracks.values()] };
+  const plane = heights.size === 1;
+  // A world of two dimensions is at height 0.
+  if (plane) for (const { positions } of tracks.values()) for (let at = 2; at < positions.length; at += 3) positions[at] = 0;
+  return { name, plane, unit: null, tracks: [...tracks.values()] };
 }
