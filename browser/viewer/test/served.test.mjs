@@ -1,4 +1,5 @@
-// `kinesphere view FILE` in use: the program, KINESPHERE_PROGRAM, serves the page and its files.
+// `kinesphere view FILE` in use: the program, KINESPHERE_PROGRAM, serves the page and its files. Built-in scenes end with the
+// program's hashes in a browser, with SIMD and without.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -61,5 +62,32 @@ test("a world's recording", async () => {
     assert.equal(reported, hash);
   });
 });
+
+const settings = { seconds: 1 };
+const native = (name) =>
+  execFileSync(program, ["run", name, "--hash-only", "--seconds", `${settings.seconds}`], { encoding: "utf8" }).trim();
+
+for (const simd of [true, false]) {
+  test(`all scenes, ${simd ? "with" : "without"} SIMD`, async () => {
+    const page = await inBrowser.open();
+    const { names, usesSimd } = await page.evaluate(async (simd) => {
+      window.kinesphere = await import("/package/dist/index.js");
+      await kinesphere.load({ simd });
+      return { names: kinesphere.sceneNames(), usesSimd: kinesphere.usesSimd() };
+    }, simd);
+    assert.equal(usesSimd, simd);
+    assert.ok(names.length >= 6);
+    for (const name of names) {
+      const hash = await page.evaluate(({ name, settings }) => {
+        const scene = new kinesphere.Scene(name, settings);
+        const world = new kinesphere.World(scene.definition);
+        const motion = scene.motion();
+        world.addMotion(motion, scene.radii);
+        return new kinesphere.EventHash().add(world.run(scene.endTime, { motion, respond: scene })).value;
+      }, { name, settings });
+      assert.equal(hash, native(name), name);
+    }
+  });
+}
 
 test("the pages have complained of nothing", () => assert.deepEqual(inBrowser.complaints, []));
