@@ -28,6 +28,19 @@ addEventListener("load", () => {
       else part.removeAttribute("tabindex");
     }
   };
-  reachable();
-  addEventListener("resize", reachable);
+  // On a phone a table that is too wide becomes a list: each row with its first cell on top, and the names of the others.
+  const list = () => {
+    for (const table of document.querySelectorAll(".md-typeset__scrollwrap table")) {
+      table.removeAttribute("data-list");
+      const frame = table.closest(".md-typeset__scrollwrap");
+      if (innerWidth >= 720 || frame.scrollWidth <= frame.clientWidth) continue;
+      table.setAttribute("data-list", "");
+      const names = Array.from(table.querySelectorAll("thead th"), (cell) => cell.textContent);
+      for (const row of table.querySelectorAll("tbody tr"))
+        for (const [k, cell] of [...row.cells].entries()) if (k > 0 && names[k]) cell.dataset.name = `${names[k]}: `;
+    }
+  };
+  const fit = () => { list(); reachable(); };
+  fit();
+  addEventListener("resize", fit);
 });
