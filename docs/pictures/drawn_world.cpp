@@ -1,7 +1,7 @@
 // Linked into the examples, for the pictures that examples.py draws of their runs: if KINESPHERE_DRAWN names
 // a file, the bodies of the last world of the program are written there, a line for each ball, box and line,
-// and where each body came from. They are those at the time KINESPHERE_DRAWN_AT if the world comes so far,
-// else those at its end.
+// and where each body came from. They are those at its end or, if there is a KINESPHERE_DRAWN_AT, at that
+// time in the last world that has come so far by itself, not as a copy.
 #include <kinesphere/run.hpp>
 #include <kinesphere/world.hpp>
 
