@@ -38,7 +38,8 @@ debian() {
   (cd "$sources" && quietly dpkg-buildpackage --no-sign --build=binary)
   rm -r "$sources/debian"
   # Nothing has been uploaded to Debian, and no address of the authors is known.
-  lintian --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs,bogus-mail-host "$work"/*.changes
+  lintian --allow-root --fail-on error,warning \
+    --suppress-tags initial-upload-closes-no-bugs,bogus-mail-host,bogus-mail-host-in-debian-changelog "$work"/*.changes
   cp "$work"/*.deb "$into"
   if [[ $(id -u) != 0 ]]; then echo "debian: not installed into a bare Debian, as that needs root" && return; fi
   local bare=$work/bare
@@ -49,9 +50,11 @@ debian() {
     apt-get -q -y install --no-install-recommends /*.deb gcc libc6-dev pkg-config man-db'
   chroot "$bare" kinesphere run paper1 | grep "$hash"
   chroot "$bare" python3 -c "$ten_lines"
-  chroot "$bare" man kinesphere | grep -q 'kinesphere run' || fail "there is no manual"
+  for manual in kinesphere kinesphere-watch; do
+    chroot "$bare" man "$manual" | grep -q 'alerts' || fail "there is no manual $manual"
+  done
   cp "$sources/examples/c/first_contact.c" "$bare"
-  chroot "$bare" sh -c 'cc /first_contact.c $(pkg-config --cflags --libs kinesphere-c) -o /first_contact && /first_contact'
+  chroot "$bare" sh -c 'cc /first_contact.c $(pkg-config --cflags --libs kinesphere-c) -lm -o /first_contact && /first_contact'
 }
 
 # Builds the C library, with Highway's beside it.
