@@ -196,12 +196,7 @@ ks_status ks_world_add_rigid_body(ks_world world, const ks_body_definition* body
     require_record(call, body, "body");
     require_record(call, rigid, "rigid");
     require_pointer(call, id, "id");
-    const RigidBody turning{.body = body_of(call, *body),
-                            .parts = parts_of(call, *rigid),
-                            .rotation = rotation_of(rigid->rotation),
-                            .angular_acceleration_limit = rigid->angular_acceleration_limit,
-                            .largest_angular_speed = rigid->largest_angular_speed,
-                            .inertia = vector_of(rigid->inertia)};
+    const RigidBody turning = rigid_of(call, *body, *rigid);
     *id = c_id(object.change([&](auto& to) { return to.add_rigid_body(turning); }).value());
   });
 }

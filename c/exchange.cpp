@@ -10,9 +10,10 @@ namespace kinesphere::c {
 
 void require_number(std::string_view call, std::string_view argument, std::int64_t number, std::int64_t least,
                     std::int64_t most) {
+  if (least <= number && number <= most) return;
   const std::string expectation = "must be from " + std::to_string(least) + " to " + std::to_string(most);
   InputCheck(call)
-      .require(least <= number && number <= most, ErrorCode::out_of_range, {argument}, expectation,
+      .require(false, ErrorCode::out_of_range, {argument}, expectation,
                std::to_string(number))
       .result()
       .value();
@@ -54,6 +55,8 @@ BodyDefinition body_of(std::string_view call, const ks_body_definition& body) {
   return definition;
 }
 
+namespace {
+
 std::vector<RigidPart> parts_of(std::string_view call, const ks_rigid_definition& rigid) {
   require_array(call, rigid.parts, rigid.part_count, "rigid.parts");
   require_array(call, rigid.hulls, rigid.hull_count, "rigid.hulls");
@@ -66,6 +69,17 @@ std::vector<RigidPart> parts_of(std::string_view call, const ks_rigid_definition
     parts.push_back(hull_part(vectors_of(hull.points, hull.point_count), hull.radius));
   }
   return parts;
+}
+
+}  // namespace
+
+RigidBody rigid_of(std::string_view call, const ks_body_definition& body, const ks_rigid_definition& rigid) {
+  return {.body = body_of(call, body),
+          .parts = parts_of(call, rigid),
+          .rotation = rotation_of(rigid.rotation),
+          .angular_acceleration_limit = rigid.angular_acceleration_limit,
+          .largest_angular_speed = rigid.largest_angular_speed,
+          .inertia = vector_of(rigid.inertia)};
 }
 
 ks_body_definition c_body(const BodyDefinition& body) {

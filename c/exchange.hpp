@@ -57,6 +57,10 @@ ks_body_definition c_body(const BodyDefinition& body);
 ErrorBound bound_of(std::string_view call, const ks_error_bound& bound);
 
 WorldDefinition world_of(std::string_view call, const ks_world_definition& caller);
+ks_world_definition c_world(const WorldDefinition& definition);
+ks_body_view c_view(const BodyView& view);
+/// Without its classes and separations.
+ks_monitor_definition c_monitor(const MonitorDefinition& definition);
 
 ks_event c_event(const Event& event);
 /// Writes what an advance returned, with the world at `time`.
@@ -70,7 +74,7 @@ GameResponse response_by(std::string_view call, ks_respond respond, void* user, 
                          double resting_speed);
 
 /// Throws BadResult if an array or a hull is missing.
-std::vector<RigidPart> parts_of(std::string_view call, const ks_rigid_definition& rigid);
+RigidBody rigid_of(std::string_view call, const ks_body_definition& body, const ks_rigid_definition& rigid);
 
 /// Empty if `filter` is null.
 PairFilter pair_filter_of(ks_pair_filter filter, void* user);

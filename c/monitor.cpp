@@ -7,7 +7,6 @@
 #include "objects.hpp"
 
 namespace kinesphere::c {
-namespace {
 
 ks_monitor_definition c_monitor(const MonitorDefinition& definition) {
   ks_monitor_definition record{.struct_size = sizeof record,
@@ -17,6 +16,8 @@ ks_monitor_definition c_monitor(const MonitorDefinition& definition) {
   fields::each_monitor_definition_field(convert_fields, definition, record);
   return record;
 }
+
+namespace {
 
 SeparationRule rule_of(std::string_view call, const ks_separation_rule& given) {
   SeparationRule rule{given.first_class, given.second_class, {}};

@@ -8,7 +8,6 @@
 #include "objects.hpp"
 
 namespace kinesphere::c {
-namespace {
 
 ks_world_definition c_world(const WorldDefinition& definition) {
   ks_world_definition record{.struct_size = sizeof record,
@@ -31,8 +30,6 @@ ks_body_view c_view(const BodyView& view) {
           .image = {view.image[0], view.image[1], view.image[2]},
           .definition = c_body(view.definition)};
 }
-
-}  // namespace
 
 WorldDefinition world_of(std::string_view call, const ks_world_definition& caller) {
   const ks_world_definition given = read_record(caller, c_world({}));

@@ -270,22 +270,22 @@ def require_known(interface: Interface, known: set[str]) -> None:
                 )
 
 
-def size_and_alignment(interface: Interface, type: Type) -> tuple[int, int]:
-    """Of a value with 64-bit pointers."""
-    if type.is_pointer or type.name in interface.callbacks:
-        return 8, 8
+def size_and_alignment(interface: Interface, type: Type, pointer: int = 8) -> tuple[int, int]:
+    """Of a value; `pointer` is the size of a pointer."""
+    if type.is_pointer or type.name in interface.callbacks or type.name == "size_t":
+        return pointer, pointer
     name = interface.aliases.get(type.name, type.name)
     if name in scalars:
         return scalars[name] * type.count, scalars[name]
-    size, alignment = layout(interface, interface.records[name])[1:]
+    size, alignment = layout(interface, interface.records[name], pointer)[1:]
     return size * type.count, alignment
 
 
-def layout(interface: Interface, record: Record) -> tuple[dict[str, int], int, int]:
+def layout(interface: Interface, record: Record, pointer: int = 8) -> tuple[dict[str, int], int, int]:
     """The offset of each field, the size, and the alignment of a record."""
     offsets, at, widest = {}, 0, 1
     for one in record.fields:
-        size, alignment = size_and_alignment(interface, one.type)
+        size, alignment = size_and_alignment(interface, one.type, pointer)
         at = (at + alignment - 1) // alignment * alignment
         offsets[one.name] = at
         at, widest = at + size, max(widest, alignment)

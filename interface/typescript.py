@@ -1,8 +1,4 @@
-"""Writes browser/package/src/records.ts: enumerations, fields of records, and where they are in tables of numbers.
-
-The module writes and reads the same tables by interface/fields.hpp, field after field, as browser/module/numbers.hpp
-converts them.
-"""
+"""Writes browser/package/src/records.ts: enumerations, records, and where their fields lie in the module's memory."""
 
 from __future__ import annotations
 
@@ -10,7 +6,7 @@ import json
 
 import meaning
 from cplusplus import walked_fields
-from header import Enumeration, Field, Interface, Record, lower_camel, wrapped
+from header import Enumeration, Field, Interface, Record, layout, lower_camel, wrapped
 
 # Names of enumerations, and of the lists of their names.
 enumerations = {
@@ -22,8 +18,6 @@ enumerations = {
     "ks_verdict": ("Verdict", "verdicts"),
     "ks_monitor_event_kind": ("MonitorEventKind", "monitorEventKinds"),
 }
-# Numbers that a field takes; all others take one.
-widths = {"ks_vec3": 3, "ks_state": 6, "ks_filter": 3, "ks_axes": 3, "ks_error_bound": 3}
 # Records that the library gives, with the names of their classes or interfaces.
 got = {
     "ks_event": "EventFields",
@@ -48,6 +42,13 @@ by_hand = {
     "ks_track_report": ("state", "velocity_error"),
 }
 whole_numbers = {"sensor_class": "255", "user_data": "2 ** 53", "track_class": "2 ** 32 - 1"}
+# Records that are written and read by hand.
+placed = [
+    "ks_shape", "ks_static_definition", "ks_body_view", "ks_rigid_definition", "ks_rigid_hull", "ks_sensor_overlap",
+    "ks_prediction", "ks_hit", "ks_sphere", "ks_ray", "ks_busy_body", "ks_response", "ks_roughness",
+    "ks_step_potential_definition", "ks_run_definition", "ks_game_definition", "ks_event_list", "ks_body_list",
+    "ks_track_class", "ks_separation", "ks_separation_rule",
+]  # fmt: skip
 tracks = {"ks_monitor_event", "ks_pair_answer", "ks_open_pair", "ks_predicted_pair", "ks_report_request"}
 
 
@@ -68,30 +69,23 @@ def stem(record: Record) -> str:
     return lower_camel(record.name.removeprefix("ks_").removesuffix("_definition").removeprefix("track_"))
 
 
-def fields_of(record: Record) -> list[tuple[Field, int]]:
-    """The fields of a table, each with its place."""
-    at, found = 0, []
-    for name in walked_fields(record):
-        found.append((record[name], at))
-        at += widths.get(record[name].type.name, 1)
-    return found
+def offsets_of(interface: Interface, record: Record) -> dict[str, int]:
+    """Where the fields are in WebAssembly, in bytes."""
+    return layout(interface, record, pointer=4)[0]
 
 
-def size_of(record: Record) -> int:
-    one, at = fields_of(record)[-1]
-    return at + widths.get(one.type.name, 1)
+def fields_of(interface: Interface, record: Record) -> list[tuple[Field, int]]:
+    """The fields that JavaScript has under the same names, each with its offset."""
+    offsets = offsets_of(interface, record)
+    return [(record[name], offsets[name]) for name in walked_fields(record)]
 
 
-def layout(record: Record) -> list[str]:
-    name = stem(record)
-    places = ", ".join(f"{lower_camel(one.name)}: {at}" for one, at in fields_of(record))
-    lines = wrapped(f"export const {name}At = {{ {places} }}\u00a0as\u00a0const;", 118, "", "  ")
-    return [
-        f"/** @internal Places in the table of a record, and its size. */",
-        *lines,
-        f"/** @internal */ export const {name}Size = {size_of(record)};",
-        "",
-    ]
+def places(interface: Interface, record: Record) -> list[str]:
+    name, offsets = stem(record), offsets_of(interface, record)
+    fields = ", ".join(f"{lower_camel(one)}: {at}" for one, at in offsets.items() if one not in ("struct_size", "reserved"))
+    size = layout(interface, record, pointer=4)[1]
+    lines = wrapped(f"export const {name}At = {{ size: {size}, {fields} }}\u00a0as\u00a0const;", 118, "", "  ")
+    return [f"/** @internal Size of a {record.name}, and offsets of its fields, in bytes. */", *lines, ""]
 
 
 def enumeration_of(enumeration: Enumeration) -> list[str]:
@@ -133,88 +127,58 @@ def flags(interface: Interface) -> list[str]:
     return [*lines, 'const senses = ["neither", "first", "second", "both"] as const;', ""]
 
 
-def getter(interface: Interface, record: Record, one: Field, at: int) -> str:
-    name, number = one.type.name, f"this.numbers[{at}]!"
-    if name == "ks_bool":
-        return f"get {lower_camel(one.name)}(): boolean {{ return this.numbers[{at}] === 1; }}"
-    if name in widths:
-        type, value = (
-            ("State", f"this.state({at})")
-            if name == "ks_state"
-            else ("Float64Array", f"this.numbers.subarray({at}, {at + widths[name]})")
-        )
-    elif name == "ks_body_id":
-        type, value = (
-            ("BodyId | null", f"{number} < 0 ? null : {number}")
-            if meaning.may_be_nobody(one)
-            else ("BodyId", number)
-        )
-    elif name == "ks_wall":
-        type, value = "Wall | null", f"wallOf({number})"
-    elif name == "ks_traits":
-        type, value = "BodyTraits", f"traitsOf({number})"
-    elif name == "ks_senses":
-        type, value = "(typeof senses)[number]", f"senses[{number}]!"
-    elif name in enumerations:
-        type, value = enumerations[name][0], f"{enumerations[name][1]}[{number}]!"
-    else:
-        type, value = ("TrackId" if record.name in tracks and one.name == "first" else "number"), number
-    return f"get {lower_camel(one.name)}(): {type} {{ return {value}; }}"
+def named(interface: Interface, type: str, number: str) -> str:
+    """The name of an enumerator by its number."""
+    chosen = meaning.choices(interface.enumerations[type])
+    first = interface.enumerations[type].enumerators[1].value if type in meaning.complete else chosen[0].value
+    return f"{enumerations[type][1]}[{number}{f' - {first}' if first else ''}]!"
+
+
+def read_value(interface: Interface, record: Record, one: Field, at: int, source: str) -> tuple[str, str]:
+    """The type of a field that the library gives, and how a Place reads it."""
+    name = one.type.name
+    call = lambda kind: f"{source}.{kind}({at})"
+    simple = {
+        "ks_vec3": ("Float64Array", call("vector")),
+        "ks_state": ("State", call("state")),
+        "ks_traits": ("BodyTraits", f"traitsOf({call('word')})"),
+        "ks_senses": ("(typeof senses)[number]", f"senses[{call('word')}]!"),
+        "ks_wall": ("Wall | null", f"wallOf({call('word')})"),
+        "ks_bool": ("boolean", f"{call('word')} !== 0"),
+        "ks_axes": ("", f"axesOf({call('word')})"),
+    }
+    if name in simple:
+        return simple[name]
+    if name == "ks_body_id":
+        return ("BodyId | null", f"idOrNull({call('id')})") if meaning.may_be_nobody(one) else ("BodyId", call("id"))
+    if name in enumerations:
+        return enumerations[name][0], named(interface, name, call("word"))
+    if one.name == "dimensions":
+        return "2 | 3", f"{call('word')} as 2 | 3"
+    kind = {"double": "number", "uint64_t": "whole", "int32_t": "word", "uint32_t": "word"}[name]
+    is_track = record.name in tracks and name == "uint64_t"
+    return ("TrackId" if is_track else "number"), call(kind)
 
 
 def class_of(interface: Interface, record: Record) -> list[str]:
-    lines = [
-        f"/** The fields of an event, read from numbers that never change. */",
-        f"export class {got[record.name]} {{",
-    ]
-    lines += ["  /** @internal */", "  constructor(readonly numbers: Float64Array) {}", ""]
-    for one, at in fields_of(record):
+    lines = ["/** The fields of an event, read from memory that never changes. */", f"export class {got[record.name]} extends Place {{"]
+    for one, at in fields_of(interface, record):
         if one.name not in by_hand.get(record.name, ()):
-            lines += [
-                *documented(one.comment, "  ", one.type.name),
-                "  " + getter(interface, record, one, at),
-            ]
-    if any(one.type.name == "ks_state" for one in record.fields):
-        lines += ["", "  private state(from: number): State {", "    return {"]
-        lines += [
-            "      position: this.numbers.subarray(from, from + 3),",
-            "      velocity: this.numbers.subarray(from + 3, from + 6),",
-        ]
-        lines += ["    };", "  }"]
+            type, value = read_value(interface, record, one, at, "this")
+            lines += documented(one.comment, "  ", one.type.name)
+            lines += [f"  get {lower_camel(one.name)}(): {type} {{ return {value}; }}"]
     return [*lines, "}", ""]
 
 
-def read_value(one: Field, at: int) -> tuple[str, str]:
-    """The type of a field that the library gives, and how it is read."""
-    name, number = one.type.name, f"numbers[{at}]!"
-    if name == "ks_bool":
-        return "boolean", f"numbers[{at}] === 1"
-    if name == "ks_verdict":
-        return "Verdict", f"verdicts[{number}]!"
-    if name == "ks_contacts":
-        return "ContactEvents", f"contactEvents[{number} - 1]!"
-    if name == "ks_axes":
-        return "", f"{{ x: numbers[{at}] === 1, y: numbers[{at + 1}] === 1, z: numbers[{at + 2}] === 1 }}"
-    if name == "int32_t":
-        return "2 | 3", f"{number} as 2 | 3"
-    return ("TrackId" if name == "uint64_t" else "number"), number
-
-
-def interface_of(record: Record) -> list[str]:
-    """An interface that the library gives, and the function that makes it of numbers."""
-    name, fields = got[record.name], fields_of(record)
+def interface_of(interface: Interface, record: Record) -> list[str]:
+    """An interface that the library gives, and the function that reads it."""
+    name, fields = got[record.name], fields_of(interface, record)
+    values = [(one, *read_value(interface, record, one, at, "from")) for one, at in fields]
     lines = documented(record.comment, "") + [f"export interface {name} {{"]
-    for one, at in fields:
-        lines += documented(one.comment, "  ", one.type.name) + [
-            f"  {lower_camel(one.name)}: {read_value(one, at)[0]};"
-        ]
-    lines += [
-        "}",
-        f"/** @internal */",
-        f"export function {stem(record)}Of(numbers: Float64Array): {name} {{",
-        "  return {",
-    ]
-    lines += [f"    {lower_camel(one.name)}: {read_value(one, at)[1]}," for one, at in fields]
+    for one, type, _ in values:
+        lines += documented(one.comment, "  ", one.type.name) + [f"  {lower_camel(one.name)}: {type};"]
+    lines += ["}", "/** @internal */", f"export function {stem(record)}Of(from: Place): {name} {{", "  return {"]
+    lines += [f"    {lower_camel(one.name)}: {value}," for one, _, value in values]
     return [*lines, "  };", "}", ""]
 
 
@@ -241,31 +205,32 @@ def written(one: Field, at: int, is_required: bool) -> str:
     key, place = lower_camel(one.name), f"at + {at}"
     value, name, default = f"given.{key}", one.type.name, one.default
     said = f'"{key}", call'
-    if name == "ks_bool":
-        return f"numbers[{place}] = " + (
-            f"{value} === false ? 0 : 1;" if default == "1" else f"{value} ? 1 : 0;"
-        )
-    if name == "ks_axes":
-        return f"numbers.set([{value}?.x ? 1 : 0, {value}?.y ? 1 : 0, {value}?.z ? 1 : 0], {place});"
-    if name == "ks_vec3":
-        return f"numbers.set(vector({value}{'' if is_required else ' ?? [0, 0, 0]'}, {said}), {place});"
-    if name == "ks_filter":
-        return f"numbers.set(filterNumbers({value} ?? {{}}, call), {place});"
-    if name == "ks_error_bound":
-        return f"numbers.set(boundNumbers({value} ?? 0, {said}), {place});"
-    if name == "ks_contacts":
-        return f"numbers[{place}] = contactsNumber({value}, {default}, call);"
     number = default.replace("INFINITY", "Infinity")
+    or_default = value if is_required else f"{value} ?? {number}"
+    if name == "ks_bool":
+        flag = f"{value} === false ? 0 : 1" if default == "1" else f"{value} ? 1 : 0"
+        return f"to.putWord({place}, {flag});"
+    if name == "ks_axes":
+        return f"to.putWord({place}, axesBits({value}));"
+    if name == "ks_vec3":
+        return f"to.putVector({place}, vector({value}{'' if is_required else ' ?? [0, 0, 0]'}, {said}));"
+    if name == "ks_filter":
+        return f"putFilter(to, {place}, {value} ?? {{}}, call);"
+    if name == "ks_error_bound":
+        return f"putBound(to, {place}, {value} ?? 0, {said});"
+    if name == "ks_contacts":
+        return f"to.putWord({place}, contactsNumber({value}, {default}, call));"
     if one.name in whole_numbers:
-        return f"numbers[{place}] = whole({value} ?? {number}, {whole_numbers[one.name]}, {said});"
-    return f"numbers[{place}] = {value}{'' if is_required else f' ?? {number}'};"
+        or_default = f"whole({or_default}, {whole_numbers[one.name]}, {said})"
+    put = {"double": "putNumber", "uint64_t": "putWhole", "int32_t": "putWord", "uint32_t": "putWord"}[name]
+    return f"to.{put}({place}, {or_default});"
 
 
-def given_of(record: Record) -> list[str]:
-    """An interface that callers give, its keys, and the function that writes it to numbers."""
+def given_of(interface: Interface, record: Record) -> list[str]:
+    """An interface that callers give, its keys, and the function that writes it."""
     name, required = given[record.name]
     skipped = by_hand.get(record.name, ())
-    fields = [(one, at) for one, at in fields_of(record) if one.name not in skipped]
+    fields = [(one, at) for one, at in fields_of(interface, record) if one.name not in skipped]
     lines = documented(record.comment, "") or [f"/** {record.comment} */"]
     lines += [f"export interface {name} {{"]
     for one, _ in fields:
@@ -276,35 +241,51 @@ def given_of(record: Record) -> list[str]:
     keys = ", ".join(f"{lower_camel(one.name)}: {given_type(one)[1]}" for one, _ in fields)
     lines += ["}", "/** @internal */"]
     lines += wrapped(f"export const {stem(record)}FieldKeys: Keys<{name}> = {{ {keys} }};", 118, "", "  ")
-    lines += ["/** @internal Writes the table that the module reads; what is not given has its default. */"]
+    lines += ["/** @internal Writes a record of zeros; what is not given has its default. */"]
     statements = [written(one, at, one.name in required) for one, at in fields]
     call = "call" if any("call" in one for one in statements) else "_call"
-    lines += [
-        f"export function put{name}(numbers: Float64Array, at: number, given: {name}, {call}: string): void {{"
-    ]
+    lines += [f"export function put{name}(to: Memory, at: number, given: {name}, {call}: string): void {{"]
     lines += [*("  " + one for one in statements), "}", ""]
     return lines
 
 
-def read_back(record: Record) -> list[str]:
+def read_back(interface: Interface, record: Record) -> list[str]:
     """The function that reads a definition which the module tells."""
     name = given[record.name][0]
-    lines = [
-        "/** @internal */",
-        f"export function {stem(record)}FieldsOf(numbers: Float64Array): Required<{name}> {{",
-        "  return {",
-    ]
-    lines += [f"    {lower_camel(one.name)}: {read_value(one, at)[1]}," for one, at in fields_of(record)]
+    lines = ["/** @internal */", f"export function {stem(record)}FieldsOf(from: Place): Required<{name}> {{", "  return {"]
+    for one, at in fields_of(interface, record):
+        lines += [f"    {lower_camel(one.name)}: {read_value(interface, record, one, at, 'from')[1]},"]
     return [*lines, "  };", "}", ""]
+
+
+by_name = """\
+function contactsNumber(contacts: ContactEvents | undefined, usual: number, call: string): number {
+  if (contacts === undefined) return usual;
+  const number = contactEvents.indexOf(contacts) + 1;
+  if (number < 1)
+    throw new TypeError(`${call}: contacts must be "all", "begin_and_end" or "impacts", but is ${shown(contacts)}`);
+  return number;
+}
+function axesBits(axes: WorldFields["periodic"] = {}): number {
+  return (axes.x ? 1 : 0) + (axes.y ? 2 : 0) + (axes.z ? 4 : 0);
+}
+function axesOf(bits: number): { x: boolean; y: boolean; z: boolean } {
+  return { x: (bits & 1) !== 0, y: (bits & 2) !== 0, z: (bits & 4) !== 0 };
+}
+function idOrNull(id: number): BodyId | null {
+  return id < 0 ? null : id;
+}
+"""
 
 
 def records(interface: Interface, banner: str) -> str:
     """The text of records.ts."""
     lines = [
         f"// {banner}",
-        "// Enumerations and records of the library, and their tables of numbers for the module.",
-        'import { boundNumbers, type ErrorBound } from "./error_bound.js";',
-        'import { type Filter, filterNumbers } from "./filter.js";',
+        "// Enumerations and records of the library, and where they lie in the memory of the module.",
+        'import { type ErrorBound, putBound } from "./error_bound.js";',
+        'import { type Filter, putFilter } from "./filter.js";',
+        'import { type Memory, Place } from "./memory.js";',
         'import { type Keys, shown, whole } from "./options.js";',
         'import { type BodyId, type State, type Vec3, vector } from "./state.js";',
         "",
@@ -314,28 +295,16 @@ def records(interface: Interface, banner: str) -> str:
     ]
     for name in enumerations:
         lines += enumeration_of(interface.enumerations[name])
-    lines += [*error_codes(interface.enumerations["ks_status"]), *flags(interface)]
+    lines += [*error_codes(interface.enumerations["ks_status"]), *flags(interface), by_name]
     for name in got:
         record = interface.records[name]
-        lines += (
-            layout(record)
-            if name in classes
-            else [f"/** @internal */ export const {stem(record)}Size = {size_of(record)};"]
-        )
-        lines += class_of(interface, record) if name in classes else interface_of(record)
-    lines += [
-        "function contactsNumber(contacts: ContactEvents | undefined, usual: number, call: string): number {",
-        "  if (contacts === undefined) return usual;",
-        "  const number = contactEvents.indexOf(contacts) + 1;",
-        "  if (number < 1)",
-        '    throw new TypeError(`${call}: contacts must be "all", "begin_and_end" or "impacts", but is ${shown(contacts)}`);',
-        "  return number;",
-        "}",
-        "",
-    ]
+        lines += places(interface, record)
+        lines += class_of(interface, record) if name in classes else interface_of(interface, record)
     for name in given:
         record = interface.records[name]
-        lines += [*layout(record), *given_of(record)]
+        lines += [*places(interface, record), *given_of(interface, record)]
         if name in ("ks_world_definition", "ks_monitor_definition"):
-            lines += read_back(record)
+            lines += read_back(interface, record)
+    for name in placed:
+        lines += places(interface, interface.records[name])
     return "\n".join(lines).replace("\u00a0", " ")

@@ -1,145 +1,170 @@
-// Reading a world: bodies, counters, certificates and defects.
-#include "body.hpp"
-#include "exchange.hpp"
+// Reading a world beyond what C tells: definitions, bounds, shapes, counters, certificates and defects; and
+// queries with a box, at which bodies they look.
+#include <string>
+
+#include "c/probing.hpp"
+#include "kinesphere/certificates.hpp"
 #include "kinesphere/inspection.hpp"
+#include "kinesphere/queries.hpp"
+#include "module.hpp"
 
 namespace kinesphere::browser {
+namespace {
 
-KINESPHERE_EXPORT(world_bodies) void world_bodies(const World* world) { answer_ids(world->bodies()); }
+void put(std::initializer_list<double> numbers) { answer().insert(answer().end(), numbers); }
+void put(const Vec3& vector) { put({vector.x, vector.y, vector.z}); }
 
-/// Numbers for each body; WorldView.bodyViews() in package/src/world.ts reads them.
-constexpr std::size_t view_numbers = 34;
-KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t count, const double* bodies) {
-  auto& numbers = answer();
-  numbers.assign(count * view_numbers, 0.0);
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto view = world->body(body_of(bodies[k]));
-    if (!is_good(view)) return false;
-    double* const at = numbers.data() + k * view_numbers;
-    put(view->bound.centre_at(world->time()), at);
-    at[3] = view->is_static ? view->definition.radius : view->bound.radius_at(world->time());
-    at[4] = view->definition.radius;
-    at[5] = view->bound.time;
-    put({view->definition.position, view->definition.velocity}, at + 6);
-    put(view->box.lower, at + 12);
-    put(view->box.upper, at + 15);
-    at[18] = view->box_end;
-    at[19] = view->enabled ? 1.0 : 0.0;
-    at[20] = view->is_static ? 1.0 : 0.0;
-    at[21] = view->sleeping ? 1.0 : 0.0;
-    at[22] = view->definition.acceleration_limit;
-    at[23] = static_cast<double>(view->definition.sensor_class);
-    at[24] = static_cast<double>(view->definition.user_data);
-    for (std::size_t axis = 0; axis < 3; ++axis) at[25 + axis] = static_cast<double>(view->image[axis]);
-    at[28] = view->definition.solid ? 1.0 : 0.0;
-    at[29] = view->definition.mass;
-    NumberWriter(at + 30).put(view->definition.filter);
-    at[33] = view->rigid ? 1.0 : 0.0;
-  }
-  return true;
+Result<RigidBody> rigid_of(const World& world, BodyId body) {
+  const auto view = world.body(body);
+  if (!view) return view.error();
+  if (view->rigid) return *view->rigid;
+  return Error{ErrorCode::unsupported, "body", body,
+               "body must be rigid, but body " + to_string(body) + " is not"};
 }
 
-/// Answers the kind of a body's shape and its numbers, as shape_at() of world.cpp takes them.
-KINESPHERE_EXPORT(world_shape_of) bool world_shape_of(const World* world, double body) {
-  const auto view = world->body(body_of(body));
-  if (!is_good(view)) return false;
-  const Shape& shape = view->shape;
-  auto& numbers = answer();
-  numbers.assign(10, static_cast<double>(shape.index()));
-  double* const at = numbers.data() + 1;
-  if (const auto* ball = std::get_if<Ball>(&shape)) {
-    put(ball->centre, at);
-    at[3] = ball->radius;
-  } else if (const auto* side = std::get_if<HalfSpace>(&shape)) {
-    put(side->normal, at);
-    at[3] = side->offset;
-  } else if (const auto* box = std::get_if<Box>(&shape)) {
-    put(box->lower, at);
-    put(box->upper, at + 3);
-  } else if (const auto* triangle = std::get_if<Triangle>(&shape)) {
-    put(triangle->a, at);
-    put(triangle->b, at + 3);
-    put(triangle->c, at + 6);
-  } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
-    numbers.resize(3);
-    numbers[1] = static_cast<double>(mesh->vertices().size());
-    numbers[2] = static_cast<double>(mesh->size());
-    for (const Vec3& vertex : mesh->vertices()) numbers.insert(numbers.end(), {vertex.x, vertex.y, vertex.z});
-    for (const auto& triple : mesh->corners()) numbers.insert(numbers.end(), triple.begin(), triple.end());
-  }
-  return true;
-}
-
-KINESPHERE_EXPORT(world_touching) bool world_touching(const World* world, double body) {
-  const auto ids = world->touching(body_of(body));
-  if (!is_good(ids)) return false;
-  answer_ids(*ids);
-  return true;
-}
-
-/// Answers pairs of a body and a distance.
-KINESPHERE_EXPORT(world_sensor_overlaps) bool world_sensor_overlaps(const World* world, double body) {
-  const auto overlaps = world->sensor_overlaps(body_of(body));
-  if (!is_good(overlaps)) return false;
+/// Answers by look(world) what it puts.
+template <class Look>
+ks_status answering(ks_world world, const Look& look) {
   answer().clear();
-  for (const SensorOverlap& overlap : *overlaps)
-    answer().insert(answer().end(), {number_of(overlap.body), overlap.distance});
-  return true;
+  return c::reading("world", world, [&](const c::WorldObject& object) { look(object.world()); });
 }
 
-KINESPHERE_EXPORT(world_counters) void world_counters(const World* world) {
-  const Counters& counters = world->counters();
-  auto& numbers = answer();
-  numbers.clear();
-  for (const std::uint64_t events : counters.events) numbers.push_back(static_cast<double>(events));
-  for (const std::uint64_t count :
-       {counters.probes, counters.window_ends, counters.starts, counters.restarts, counters.pair_checks,
-        counters.wall_checks, counters.searches, counters.candidates, counters.hot_pairs,
-        counters.certificates, counters.zeno_steps, counters.repeated_contacts, counters.jammed_contacts})
-    numbers.push_back(static_cast<double>(count));
+}  // namespace
+
+KINESPHERE_EXPORT(world_definition)
+ks_status world_definition(ks_world world, ks_world_definition* definition) {
+  return c::reading("world", world, [&](const c::WorldObject& object) {
+    *definition = c::c_world(object.world().definition());
+  });
 }
 
-/// Answers triples of two ids and a time; and boxes (6 numbers) with their number of bodies.
-KINESPHERE_EXPORT(world_certificates) void world_certificates(const World* world) {
-  answer().clear();
-  for (const Certificate& certificate : world->inspection().certificates())
-    answer().insert(answer().end(),
-                    {number_of(certificate.first), number_of(certificate.second), certificate.until});
-}
-/// Numbers for each body that World.inspection().busiest() in package/src/world.ts reads.
-KINESPHERE_EXPORT(world_busiest) bool world_busiest(const World* world, std::size_t count) {
-  const auto busiest = world->inspection().busiest(count);
-  if (!is_good(busiest)) return false;
-  answer().clear();
-  for (const BusyBody& busy : *busiest) {
-    answer().insert(answer().end(), {number_of(busy.body), static_cast<double>(busy.reason)});
-    for (const std::uint64_t counted :
-         {busy.probes, busy.touching, busy.near, busy.windows, busy.changes, busy.queries, busy.contacts})
-      answer().push_back(static_cast<double>(counted));
-    answer().insert(answer().end(), {busy.acceleration_limit, busy.largest_acceleration});
-  }
-  return true;
-}
-/// Answers the advice on a reason.
-KINESPHERE_EXPORT(advice) void advice(unsigned reason) {
-  answer_bytes().clear();
-  for (const char c : advice_on(static_cast<ProbeReason>(reason)))
-    answer_bytes().push_back(static_cast<std::byte>(c));
-}
-KINESPHERE_EXPORT(world_cells) void world_cells(const World* world) {
-  answer().clear();
-  for (const CellView& cell : world->inspection().cells())
-    answer().insert(answer().end(), {cell.box.lower.x, cell.box.lower.y, cell.box.lower.z, cell.box.upper.x,
-                                     cell.box.upper.y, cell.box.upper.z, static_cast<double>(cell.bodies)});
+/// What the world knows of a body, the bound that contains it now, and whether it is rigid.
+struct BoundedView {
+  ks_body_view view;
+  Vec3 centre;
+  double bound_radius;
+  double is_rigid;
+};
+KINESPHERE_EXPORT(world_views)
+ks_status world_views(ks_world world, std::size_t count, const BodyId* bodies, BoundedView* views) {
+  return c::reading("world", world, [&](const c::WorldObject& object) {
+    const double now = object.world().time();
+    for (std::size_t k = 0; k < count; ++k) {
+      const BodyView view = object.world().body(bodies[k]).value();
+      views[k] = {c::c_view(view), view.bound.centre_at(now),
+                  view.is_static ? view.definition.radius : view.bound.radius_at(now),
+                  view.rigid ? 1.0 : 0.0};
+    }
+  });
 }
 
-/// Answers an empty text if there is no defect.
-KINESPHERE_EXPORT(world_audit) void world_audit(const World* world) {
-  answer_bytes().clear();
-  const auto finding = world->inspection().audit();
-  if (!finding) return;
-  for (const char c : finding->where + ": " + finding->what)
-    answer_bytes().push_back(static_cast<std::byte>(c));
+/// Answers the place of a body's shape among those of ks_shape, and its numbers: those of the points and
+/// `number`; of a mesh the counts of vertices and triangles, and both.
+KINESPHERE_EXPORT(world_shape_of) ks_status world_shape_of(ks_world world, const BodyId* body) {
+  return answering(world, [&](const World& of) {
+    const Shape shape = of.body(*body).value().shape;
+    put({static_cast<double>(shape.index())});
+    if (const auto* ball = std::get_if<Ball>(&shape)) {
+      put(ball->centre);
+      put({ball->radius});
+    } else if (const auto* side = std::get_if<HalfSpace>(&shape)) {
+      put(side->normal);
+      put({side->offset});
+    } else if (const auto* box = std::get_if<Box>(&shape)) {
+      put(box->lower);
+      put(box->upper);
+    } else if (const auto* triangle = std::get_if<Triangle>(&shape)) {
+      for (const Vec3& corner : {triangle->a, triangle->b, triangle->c}) put(corner);
+    } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+      put({static_cast<double>(mesh->vertices().size()), static_cast<double>(mesh->size())});
+      for (const Vec3& vertex : mesh->vertices()) put(vertex);
+      for (const auto& corners : mesh->corners())
+        answer().insert(answer().end(), corners.begin(), corners.end());
+    }
+  });
+}
+/// Answers for each part of a rigid body its radius, the number of its points, and these.
+KINESPHERE_EXPORT(world_parts_of) ks_status world_parts_of(ks_world world, const BodyId* body) {
+  return answering(world, [&](const World& of) {
+    for (const auto& [a, b, radius, more] : rigid_of(of, *body).value().parts) {
+      put({radius, static_cast<double>(2 + more.size())});
+      put(a);
+      put(b);
+      for (const Vec3& point : more) put(point);
+    }
+  });
+}
+
+/// Answers the numbers of events by kind, and of the work.
+KINESPHERE_EXPORT(world_counters) ks_status world_counters(ks_world world) {
+  return answering(world, [&](const World& of) {
+    const Counters& counters = of.counters();
+    for (const std::uint64_t events : counters.events) put({static_cast<double>(events)});
+    for (const std::uint64_t count :
+         {counters.probes, counters.window_ends, counters.starts, counters.restarts, counters.pair_checks,
+          counters.wall_checks, counters.searches, counters.candidates, counters.hot_pairs,
+          counters.certificates, counters.zeno_steps, counters.repeated_contacts, counters.jammed_contacts})
+      put({static_cast<double>(count)});
+  });
+}
+/// Answers triples of two bodies and a time.
+KINESPHERE_EXPORT(world_certificates) ks_status world_certificates(ks_world world) {
+  return answering(world, [&](const World& of) {
+    for (const auto& [first, second, until] : of.inspection().certificates())
+      put({number_of(first), number_of(second), until});
+  });
+}
+/// Answers boxes (6 numbers) with their number of bodies.
+KINESPHERE_EXPORT(world_cells) ks_status world_cells(ks_world world) {
+  return answering(world, [&](const World& of) {
+    for (const auto& [box, bodies] : of.inspection().cells()) {
+      put(box.lower);
+      put(box.upper);
+      put({static_cast<double>(bodies)});
+    }
+  });
+}
+/// Writes the address of a text that is valid until the next audit: the first defect, or empty.
+KINESPHERE_EXPORT(world_audit) ks_status world_audit(ks_world world, const char** defect) {
+  static std::string text;
+  return c::reading("world", world, [&](const c::WorldObject& object) {
+    const auto finding = object.world().inspection().audit();
+    text = finding ? finding->where + ": " + finding->what : "";
+    *defect = text.c_str();
+  });
+}
+
+/// Calls ask(world) or, with a probe, ask(world, probe).
+template <class Ask>
+ks_status asking(ks_world world, ks_probe probe, void* user, const Ask& ask) {
+  if (probe == nullptr)
+    return c::reading("world", world, [&](const c::WorldObject& object) { ask(object.world()); });
+  return c::changing("world", world, [&](c::WorldObject& object) {
+    c::with_probe("world", object.simulation(), probe, user,
+                  [&](const Probe& combined) { ask(object.world(), combined); });
+  });
+}
+
+/// As ks_world_overlapping_box(), without the body `except`, and those that `filter`, if not null, excludes.
+/// Answers two numbers for each hit: the body, and 1 if certain.
+KINESPHERE_EXPORT(world_overlapping_box)
+ks_status world_overlapping_box(ks_world world, const Box* box, const BodyId* except, const ks_filter* filter,
+                                ks_probe probe, void* user) {
+  QueryOptions options{.except = *except};
+  if (filter != nullptr) options.filter = c::filter_of(*filter);
+  answer().clear();
+  return asking(world, probe, user, [&](auto& of, const auto&... probes) {
+    for (const auto& [body, certainty] : of.queries(probes...).overlapping(*box, options).value())
+      put({number_of(body), certainty == Certainty::certainly ? 1.0 : 0.0});
+  });
+}
+/// Writes a time before which no contact of the two bodies begins.
+KINESPHERE_EXPORT(world_pair_safe_until)
+ks_status world_pair_safe_until(ks_world world, const BodyId* first, const BodyId* second, ks_probe probe,
+                                void* user, double* time) {
+  return asking(world, probe, user, [&](auto& of, const auto&... probes) {
+    *time = of.certificates(probes...).safe_until(*first, *second).value().time;
+  });
 }
 
 }  // namespace kinesphere::browser

@@ -1,55 +1,40 @@
-#include "motion.hpp"
-
+// Motions that JavaScript owns: in C they belong to a world.
 #include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
 
-#include "exchange.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/frame_motion.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "kinesphere/motion/steered_motion.hpp"
-#include "rigid_bodies.hpp"
+#include "module.hpp"
 
 namespace kinesphere::browser {
 namespace {
 
-/// Reads six numbers for each state.
-std::vector<State> states_at(const double* numbers, std::size_t count) {
-  std::vector<State> states;
-  states.reserve(count);
-  for (std::size_t k = 0; k < count; ++k) states.push_back(state_at(numbers + 6 * k));
-  return states;
-}
-
 template <class Created>
-MotionHandle* handle_of(Result<Created> created) {
-  if (!is_good(created)) return nullptr;
-  return new MotionHandle{std::make_unique<Created>(std::move(*created))};
+ks_status make(MotionHandle** made, Result<Created> created) {
+  return c::guarded(
+      [&] { *made = new MotionHandle{std::make_shared<Created>(std::move(created).value())}; });
 }
 
-Error unknown_body() {
-  return {ErrorCode::unknown_body, "body", no_body, "Motion: body must be that of a body of the motion"};
-}
-
-bool has(const Motion& motion, double body) {
-  return body >= 0.0 && body < static_cast<double>(motion.size()) &&
-         body == static_cast<std::uint32_t>(body) && motion.contains(static_cast<std::uint32_t>(body));
-}
-
-bool knows(const MotionHandle& handle, double body) {
-  return has(*handle.motion, body) || fail(unknown_body());
-}
-
-/// Returns the motion if it is of that kind; else null, and stores an error that names the missing ability.
+/// Returns the motion if it is of that kind; else throws an error that names the missing ability.
 template <class Kind>
-Kind* as(const MotionHandle& handle, const char* refusal) {
-  auto* const motion = dynamic_cast<Kind*>(handle.motion.get());
-  if (motion == nullptr) fail({ErrorCode::unsupported, "motion", no_body, refusal});
-  return motion;
+Kind& as(const MotionHandle* handle, const char* refusal) {
+  auto* const motion = dynamic_cast<Kind*>(handle->motion.get());
+  if (motion == nullptr) detail::bad_result({ErrorCode::unsupported, "motion", no_body, refusal});
+  return *motion;
+}
+
+bool can_be_changed(const Motion& motion) { return dynamic_cast<const PiecewiseMotion*>(&motion) == nullptr; }
+
+void require_body(const Motion& motion, std::uint32_t body) {
+  if (body < motion.size() && motion.contains(body)) return;
+  detail::bad_result(
+      {ErrorCode::unknown_body, "body", no_body, "Motion: body must be that of a body of the motion"});
 }
 
 struct Span {
@@ -67,212 +52,241 @@ Span known_span(const Motion& motion, std::uint32_t body) {
 
 double clamped(double time, const Span& span) { return std::min(std::max(time, span.begin), span.end); }
 
-}  // namespace
-
-bool can_be_changed(const Motion& motion) { return dynamic_cast<const PiecewiseMotion*>(&motion) == nullptr; }
-
-std::optional<Error> why_unknown(const Motion& motion, double body, double time) {
-  if (!has(motion, body)) return unknown_body();
-  const auto number = static_cast<std::uint32_t>(body);
-  const Span span = known_span(motion, number);
-  if (span.begin <= time && time <= span.end) return std::nullopt;
-  return Error{ErrorCode::out_of_range,
-               "motion",
-               {number, 0},
-               "Motion: body " + std::to_string(number) + " is known from time " + text_of(span.begin) +
-                   " to " + text_of(span.end) + ", but is asked for at " + text_of(time)};
+/// Calls change(motion) for a motion that has the body.
+template <class Change>
+ks_status change(MotionHandle* handle, std::uint32_t body, const Change& change) {
+  return c::guarded([&] {
+    require_body(*handle->motion, body);
+    change(*handle->motion).value();
+  });
 }
 
-void put_nearest_state(const Motion* motion, double body, double time, double* state) {
-  if (motion == nullptr || !has(*motion, body)) {
-    std::fill_n(state, 6, std::numeric_limits<double>::quiet_NaN());
-    return;
+}  // namespace
+
+void require_known(const Motion& motion, std::uint32_t body, double time) {
+  require_body(motion, body);
+  const Span span = known_span(motion, body);
+  if (span.begin <= time && time <= span.end) return;
+  detail::bad_result({ErrorCode::out_of_range,
+                      "motion",
+                      {body, 0},
+                      "Motion: body " + std::to_string(body) + " is known from time " + text_of(span.begin) +
+                          " to " + text_of(span.end) + ", but is asked for at " + text_of(time)});
+}
+
+State nearest_state(const Motion& motion, std::uint32_t body, double time) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (body >= motion.size() || !motion.contains(body)) return {{nan, nan, nan}, {nan, nan, nan}};
+  return motion.state(body, clamped(time, known_span(motion, body)));
+}
+
+void MovedBodies::states(std::span<const BodyId> ids, double time, std::span<State> states) {
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const auto [motion, number] = find(ids[k]);
+    try {
+      require_known(*motion, number, time);
+    } catch (const BadResult& bad) {
+      Error error = bad.error();
+      error.body = ids[k];
+      throw BadResult(std::move(error));
+    }
+    states[k] = motion->state(number, time);
   }
-  const auto number = static_cast<std::uint32_t>(body);
-  put(motion->state(number, clamped(time, known_span(*motion, number))), state);
+}
+MotionOrigin MovedBodies::origin(BodyId body) const {
+  const auto [motion, number] = find(body);
+  return motion->origin(number);
+}
+void MovedBodies::set_origin(BodyId body, const MotionOrigin& origin) {
+  const auto [motion, number] = find(body);
+  motion->set_origin(number, origin).value();
+}
+void MovedBodies::require_possible(const Event& event, const Response& response) const {
+  if ((!response.first_velocity || can_be_changed(*find(event.first).motion)) &&
+      (!response.second_velocity || event.second == no_body || can_be_changed(*find(event.second).motion)))
+    return;
+  detail::bad_result(
+      {ErrorCode::unsupported, "respond", no_body,
+       "run: respond: the bodies of this motion go their own way, and cannot be given velocities"});
+}
+void MovedBodies::forget_gone(World& world, const Event& event, const Response& response) {
+  if (map_ != nullptr) (void)map_->remove_gone(world, event, [&](const Event&) { return response; });
+}
+MovedBody MovedBodies::find(BodyId body) const {
+  if (map_ == nullptr) return {motion_, body.index};
+  const auto found = map_->find(body);
+  if (!found) {
+    detail::bad_result({ErrorCode::unknown_body, "body", body,
+                        "BodyMap: body " + std::to_string(body.index) +
+                            " of the world was not added through this map, or has been removed from it"});
+  }
+  return *found;
 }
 
 KINESPHERE_EXPORT(motion_ballistic)
-MotionHandle* motion_ballistic(std::size_t count, const double* states, const double* gravity, double start) {
-  return handle_of(Ballistic::create(
-      {.start = states_at(states, count), .gravity = vector_at(gravity), .start_time = start}));
+ks_status motion_ballistic(std::size_t count, const State* states, const Vec3* gravity, double start,
+                           MotionHandle** made) {
+  return make(made, Ballistic::create(
+                        {.start = {states, states + count}, .gravity = *gravity, .start_time = start}));
 }
-
 KINESPHERE_EXPORT(motion_random_forces)
-MotionHandle* motion_random_forces(std::size_t count, const double* states, const double* limits,
-                                   double interval, double seed, double start) {
-  return handle_of(RandomForces::create({.start = states_at(states, count),
-                                         .acceleration_limits = {limits, limits + count},
-                                         .interval = interval,
-                                         .seed = static_cast<std::uint64_t>(seed),
-                                         .start_time = start}));
-}
-
-KINESPHERE_EXPORT(motion_steered)
-MotionHandle* motion_steered(std::size_t count, const double* states, const double* limits, double start) {
-  return handle_of(SteeredMotion::create({.start = states_at(states, count),
+ks_status motion_random_forces(std::size_t count, const State* states, const double* limits, double interval,
+                               double seed, double start, MotionHandle** made) {
+  return make(made, RandomForces::create({.start = {states, states + count},
                                           .acceleration_limits = {limits, limits + count},
+                                          .interval = interval,
+                                          .seed = static_cast<std::uint64_t>(seed),
                                           .start_time = start}));
 }
-
+KINESPHERE_EXPORT(motion_steered)
+ks_status motion_steered(std::size_t count, const State* states, const double* limits, double start,
+                         MotionHandle** made) {
+  return make(made, SteeredMotion::create({.start = {states, states + count},
+                                           .acceleration_limits = {limits, limits + count},
+                                           .start_time = start}));
+}
 /// `rotations` is null for frames without rotations.
 KINESPHERE_EXPORT(motion_frames)
-MotionHandle* motion_frames(std::size_t count, const double* states, const double* limits, double interval,
-                            double position_error, std::size_t rotation_count, const double* rotations,
-                            double start) {
+ks_status motion_frames(std::size_t count, const State* states, const double* limits, double interval,
+                        double position_error, std::size_t rotation_count, const Quaternion* rotations,
+                        double start, MotionHandle** made) {
   FrameMotionDefinition definition{.start = {},
                                    .acceleration_limits = {limits, limits + count},
                                    .interval = interval,
                                    .position_error = position_error,
                                    .start_time = start};
-  for (const State& state : states_at(states, count)) {
+  for (const State& state : std::span(states, count)) {
     definition.start.push_back(state.position);
     definition.velocities.push_back(state.velocity);
   }
-  if (rotations != nullptr) definition.rotations = quaternions_at(rotations, rotation_count);
-  return handle_of(FrameMotion::create(std::move(definition)));
+  if (rotations != nullptr) definition.rotations = {rotations, rotations + rotation_count};
+  return make(made, FrameMotion::create(std::move(definition)));
 }
-
 /// Four numbers for each sample: time and position. `lengths` has the number of samples of each track.
 KINESPHERE_EXPORT(motion_tracks)
-MotionHandle* motion_tracks(std::size_t count, const double* lengths, const double* samples) {
+ks_status motion_tracks(std::size_t count, const double* lengths, const TrackSample* samples,
+                        MotionHandle** made) {
   std::vector<Track> tracks(count);
   for (std::size_t body = 0; body < count; ++body) {
-    for (auto left = static_cast<std::size_t>(lengths[body]); left > 0; --left, samples += 4)
-      tracks[body].push_back({samples[0], vector_at(samples + 1)});
+    const auto length = static_cast<std::size_t>(lengths[body]);
+    tracks[body].assign(samples, samples + length);
+    samples += length;
   }
-  return handle_of(RecordedTracks::create(tracks));
+  return make(made, RecordedTracks::create(tracks));
 }
-
 KINESPHERE_EXPORT(motion_clone) MotionHandle* motion_clone(const MotionHandle* handle) {
   return new MotionHandle{handle->motion->clone()};
 }
 KINESPHERE_EXPORT(motion_free) void motion_free(MotionHandle* handle) { delete handle; }
+
 KINESPHERE_EXPORT(motion_size) std::size_t motion_size(const MotionHandle* handle) {
   return handle->motion->size();
 }
 KINESPHERE_EXPORT(motion_contains) bool motion_contains(const MotionHandle* handle, std::uint32_t body) {
   return handle->motion->contains(body);
 }
-
 /// States of the named bodies, or of bodies 0, 1, ... if `bodies` is null. An absent body gets NaN. At a time
 /// without a state the nearest one is used.
 KINESPHERE_EXPORT(motion_states)
-void motion_states(const MotionHandle* handle, double time, std::size_t count, const double* bodies,
-                   double* states) {
+void motion_states(const MotionHandle* handle, double time, std::size_t count, const std::uint32_t* bodies,
+                   State* states) {
   for (std::size_t k = 0; k < count; ++k)
-    put_nearest_state(handle->motion.get(), bodies != nullptr ? bodies[k] : static_cast<double>(k), time,
-                      states + 6 * k);
+    states[k] = nearest_state(*handle->motion,
+                              bodies != nullptr ? bodies[k] : static_cast<std::uint32_t>(k), time);
 }
-
-/// The numbers of a definition except the radius: limit, plan (3), position error, velocity error, state (6).
+/// State and limits of a body at a time or, without a state then, at the nearest one.
 KINESPHERE_EXPORT(motion_definition)
-bool motion_definition(const MotionHandle* handle, double body, double time, double* numbers) {
-  if (!knows(*handle, body)) return false;
-  const auto number = static_cast<std::uint32_t>(body);
-  const BodyDefinition definition =
-      handle->motion->definition(number, clamped(time, known_span(*handle->motion, number)));
-  numbers[0] = definition.acceleration_limit;
-  put(definition.planned_acceleration, numbers + 1);
-  numbers[4] = definition.position_error;
-  numbers[5] = definition.velocity_error;
-  put({definition.position, definition.velocity}, numbers + 6);
-  return true;
+ks_status motion_definition(const MotionHandle* handle, std::uint32_t body, double time,
+                            ks_body_definition* definition) {
+  return c::guarded([&] {
+    const Motion& motion = *handle->motion;
+    require_body(motion, body);
+    *definition = c::c_body(motion.definition(body, clamped(time, known_span(motion, body))));
+  });
 }
 
 KINESPHERE_EXPORT(motion_set_velocity)
-bool motion_set_velocity(MotionHandle* handle, double body, double time, const double* velocity) {
-  return knows(*handle, body) &&
-         is_good(handle->motion->set_velocity(static_cast<std::uint32_t>(body), time, vector_at(velocity)));
+ks_status motion_set_velocity(MotionHandle* handle, std::uint32_t body, double time, const Vec3* velocity) {
+  return change(handle, body, [&](Motion& motion) { return motion.set_velocity(body, time, *velocity); });
 }
-
 KINESPHERE_EXPORT(motion_teleport)
-bool motion_teleport(MotionHandle* handle, double body, double time, const double* state) {
-  return knows(*handle, body) &&
-         is_good(handle->motion->teleport(static_cast<std::uint32_t>(body), time, state_at(state)));
+ks_status motion_teleport(MotionHandle* handle, std::uint32_t body, double time, const State* state) {
+  return change(handle, body, [&](Motion& motion) { return motion.teleport(body, time, *state); });
 }
-
-KINESPHERE_EXPORT(motion_remove) bool motion_remove(MotionHandle* handle, double body) {
-  return knows(*handle, body) && is_good(handle->motion->remove(static_cast<std::uint32_t>(body)));
+KINESPHERE_EXPORT(motion_remove) ks_status motion_remove(MotionHandle* handle, std::uint32_t body) {
+  return change(handle, body, [&](Motion& motion) { return motion.remove(body); });
 }
-
-KINESPHERE_EXPORT(motion_add)
-double motion_add(MotionHandle* handle, double time, const double* state, double limit,
-                  const double* orientation) {
-  Result<std::uint32_t> added =
-      Error{ErrorCode::unsupported, "motion", no_body, "Motion.add: this motion does not take bodies"};
-  if (auto* const ballistic = dynamic_cast<Ballistic*>(handle->motion.get()))
-    added = ballistic->add(time, state_at(state));
-  if (auto* const forces = dynamic_cast<RandomForces*>(handle->motion.get()))
-    added = forces->add(time, state_at(state), limit);
-  if (auto* const steered = dynamic_cast<SteeredMotion*>(handle->motion.get()))
-    added = steered->add(time, state_at(state), limit);
-  if (auto* const frames = dynamic_cast<FrameMotion*>(handle->motion.get()))
-    added = frames->add(time, state_at(state), limit, quaternions_at(orientation, 1).front());
-  return is_good(added) ? *added : no_id;
-}
-
 KINESPHERE_EXPORT(motion_steer)
-bool motion_steer(MotionHandle* handle, double body, double time, const double* acceleration) {
-  auto* const steered = as<SteeredMotion>(*handle, "steer: this motion cannot be steered");
-  return steered != nullptr && knows(*handle, body) &&
-         is_good(steered->steer(static_cast<std::uint32_t>(body), time, vector_at(acceleration)));
+ks_status motion_steer(MotionHandle* handle, std::uint32_t body, double time, const Vec3* acceleration) {
+  return change(handle, body, [&](Motion&) {
+    return as<SteeredMotion>(handle, "steer: this motion cannot be steered").steer(body, time, *acceleration);
+  });
+}
+KINESPHERE_EXPORT(motion_add)
+ks_status motion_add(MotionHandle* handle, double time, const State* state, double limit,
+                     const Quaternion* orientation, std::uint32_t* number) {
+  return c::guarded([&] {
+    Motion* const motion = handle->motion.get();
+    Result<std::uint32_t> added =
+        Error{ErrorCode::unsupported, "motion", no_body, "Motion.add: this motion does not take bodies"};
+    if (auto* const ballistic = dynamic_cast<Ballistic*>(motion)) added = ballistic->add(time, *state);
+    if (auto* const forces = dynamic_cast<RandomForces*>(motion)) added = forces->add(time, *state, limit);
+    if (auto* const steered = dynamic_cast<SteeredMotion*>(motion)) added = steered->add(time, *state, limit);
+    if (auto* const frames = dynamic_cast<FrameMotion*>(motion))
+      added = frames->add(time, *state, limit, *orientation);
+    *number = added.value();
+  });
 }
 
-/// Pushes to a world, or to none if `world` is null. `time` is null for a frame without a time of its own.
+/// Pushes to a world and tells it, or without one if it is 0. `time` is null for a frame without a time of
+/// its own.
 KINESPHERE_EXPORT(frames_push)
-bool frames_push(MotionHandle* handle, World* world, std::size_t count, const double* positions,
-                 const double* time, std::size_t rotation_count, const double* rotations) {
-  auto* const frames = as<FrameMotion>(*handle, "push: this motion has no frames");
-  if (frames == nullptr) return false;
-  std::vector<Vec3> next;
-  next.reserve(count);
-  for (std::size_t k = 0; k < count; ++k) next.push_back(vector_at(positions + 3 * k));
-  const auto turns = quaternions_at(rotations, rotation_count);
-  const auto at = time != nullptr ? std::optional<double>(*time) : std::nullopt;
-  return is_good(world != nullptr ? frames->push(*world, next, turns, at) : frames->push(next, turns, at));
+ks_status frames_push(MotionHandle* handle, ks_world world, std::size_t count, const Vec3* positions,
+                      const double* time, std::size_t rotation_count, const Quaternion* rotations) {
+  const auto push = [&](World* to) {
+    auto& frames = as<FrameMotion>(handle, "push: this motion has no frames");
+    const std::span next(positions, count);
+    const std::span turns(rotations, rotation_count);
+    const auto at = time != nullptr ? std::optional<double>(*time) : std::nullopt;
+    (to != nullptr ? frames.push(*to, next, turns, at) : frames.push(next, turns, at)).value();
+  };
+  if (world.value == 0) return c::guarded([&] { push(nullptr); });
+  return c::changing("push", world, [&](c::WorldObject& object) { push(&object.world()); });
 }
-
-/// Answers four numbers for each body: its orientation at the latest frame; nothing without rotations.
-KINESPHERE_EXPORT(frames_latest_rotations) bool frames_latest_rotations(const MotionHandle* handle) {
-  const auto* const frames = as<const FrameMotion>(*handle, "latestRotations: this motion has no frames");
-  if (frames == nullptr) return false;
-  answer().clear();
-  for (const auto& [w, x, y, z] : frames->latest_rotations()) answer().insert(answer().end(), {w, x, y, z});
-  return true;
-}
-
 /// Answers the times of the last frame but one and of the last, then three numbers for each body: its
 /// position at the last.
-KINESPHERE_EXPORT(frames_latest) bool frames_latest(const MotionHandle* handle) {
-  const auto* const frames = as<const FrameMotion>(*handle, "latest: this motion has no frames");
-  if (frames == nullptr) return false;
-  answer() = {frames->previous_time(), frames->latest_time()};
-  for (const Vec3& position : frames->latest())
-    answer().insert(answer().end(), {position.x, position.y, position.z});
-  return true;
+KINESPHERE_EXPORT(frames_latest) ks_status frames_latest(const MotionHandle* handle) {
+  return c::guarded([&] {
+    const auto& frames = as<const FrameMotion>(handle, "latest: this motion has no frames");
+    answer() = {frames.previous_time(), frames.latest_time()};
+    for (const auto& [x, y, z] : frames.latest()) answer().insert(answer().end(), {x, y, z});
+  });
 }
-
+/// Answers four numbers for each body: its orientation at the latest frame; nothing without rotations.
+KINESPHERE_EXPORT(frames_latest_rotations) ks_status frames_latest_rotations(const MotionHandle* handle) {
+  return c::guarded([&] {
+    const auto& frames = as<const FrameMotion>(handle, "latestRotations: this motion has no frames");
+    answer().clear();
+    for (const auto& [w, x, y, z] : frames.latest_rotations()) answer().insert(answer().end(), {w, x, y, z});
+  });
+}
 /// Answers six numbers for each: body, excess, acceleration, velocity.
-KINESPHERE_EXPORT(frames_violations) bool frames_violations(const MotionHandle* handle) {
-  const auto* const frames = as<const FrameMotion>(*handle, "violations: this motion has no frames");
-  if (frames == nullptr) return false;
-  answer().clear();
-  for (const FrameViolation& violation : frames->violations()) {
-    const Vec3& velocity = violation.velocity;
-    answer().insert(answer().end(), {static_cast<double>(violation.body), violation.excess,
-                                     violation.acceleration, velocity.x, velocity.y, velocity.z});
-  }
-  return true;
+KINESPHERE_EXPORT(frames_violations) ks_status frames_violations(const MotionHandle* handle) {
+  return c::guarded([&] {
+    const auto& frames = as<const FrameMotion>(handle, "violations: this motion has no frames");
+    answer().clear();
+    for (const auto& [body, excess, acceleration, velocity] : frames.violations())
+      answer().insert(answer().end(), {static_cast<double>(body), excess, acceleration, velocity.x,
+                                       velocity.y, velocity.z});
+  });
 }
-
 /// Answers the times of the first and the last sample.
-KINESPHERE_EXPORT(tracks_span) bool tracks_span(const MotionHandle* handle, double body) {
-  const auto* const tracks = as<const RecordedTracks>(*handle, "span: this motion has no tracks");
-  if (tracks == nullptr || !knows(*handle, body)) return false;
-  const auto number = static_cast<std::uint32_t>(body);
-  answer() = {tracks->first_time(number), tracks->last_time(number)};
-  return true;
+KINESPHERE_EXPORT(tracks_span) ks_status tracks_span(const MotionHandle* handle, std::uint32_t body) {
+  return c::guarded([&] {
+    const auto& tracks = as<const RecordedTracks>(handle, "span: this motion has no tracks");
+    require_body(tracks, body);
+    answer() = {tracks.first_time(body), tracks.last_time(body)};
+  });
 }
 
 }  // namespace kinesphere::browser

@@ -1,8 +1,7 @@
 // The scenes of the command-line program, to the last bit.
 #include <string>
 
-#include "exchange.hpp"
-#include "motion.hpp"
+#include "module.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
@@ -14,7 +13,8 @@ KINESPHERE_EXPORT(scene_name) const char* scene_name(std::size_t place) {
 }
 
 /// `settings` are in the order of `sceneSettings` in package/src/scene.ts; NaN keeps the scene's own value.
-KINESPHERE_EXPORT(scene_create) Scene* scene_create(std::size_t place, const double* settings) {
+KINESPHERE_EXPORT(scene_create)
+ks_status scene_create(std::size_t place, const double* settings, Scene** made) {
   SceneParameters parameters = built_in_scenes()[place];
   const auto set = [&](std::size_t k, auto& parameter) {
     if (settings[k] == settings[k])
@@ -32,13 +32,13 @@ KINESPHERE_EXPORT(scene_create) Scene* scene_create(std::size_t place, const dou
   set(9, parameters.limit_max);
   set(10, parameters.restitution);
   set(11, parameters.contact_tolerance);
-  auto scene = make_scene(parameters);
-  return is_good(scene) ? new Scene(std::move(*scene)) : nullptr;
+  return c::guarded([&] { *made = new Scene(make_scene(parameters).value()); });
 }
 
 KINESPHERE_EXPORT(scene_free) void scene_free(Scene* scene) { delete scene; }
-KINESPHERE_EXPORT(scene_world) const WorldDefinition* scene_world(const Scene* scene) {
-  return &scene->world;
+KINESPHERE_EXPORT(scene_definition)
+void scene_definition(const Scene* scene, ks_world_definition* definition) {
+  *definition = c::c_world(scene->world);
 }
 KINESPHERE_EXPORT(scene_motion) MotionHandle* scene_motion(const Scene* scene) {
   return new MotionHandle{scene->motion->clone()};

@@ -230,7 +230,7 @@ function drive(monitor, stretch) {
   const next = random(100 + stretch);
   const numbers = [];
   const run = (until) => {
-    for (const number of monitor.run(until).numbers) numbers.push(number);
+    for (const event of monitor.run(until)) numbers.push(...event.numbers);
   };
   for (let k = 0; k < 80; ++k) {
     const time = 10 * stretch + k / 8;
@@ -393,7 +393,7 @@ test("batches are equal to single reports, with bounds and plans of each", () =>
              validUntil: column((r) => r.plan.validUntil) },
   });
   assert.ok(Buffer.compare(many.save(), single.save()) === 0);
-  assert.deepEqual(many.run(3).numbers, single.run(3).numbers);
+  assert.deepEqual([...many.run(3)], [...single.run(3)]);
   // A wrong report among good ones, which are not accepted either.
   const before = many.save();
   refuses(() => many.reportAll({ ids: [1, 2], timestamps: 3, positions: [0, 0, 0, 1e300, 0, 0], velocities: Array(6).fill(0) }),

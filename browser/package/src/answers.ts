@@ -1,7 +1,7 @@
 // Options of predictions and queries.
 import type { Probe } from "./asking.js";
-import { type Filter, filterNumbers } from "./filter.js";
-import { checkKeys, type Keys } from "./options.js";
+import type { Filter } from "./filter.js";
+import type { Keys } from "./options.js";
 import type { BodyId } from "./state.js";
 
 /** Whom a prediction or a query may ask. */
@@ -24,18 +24,17 @@ export interface QueryOptions extends AnswerOptions {
   /** Not this one, such as the body that casts the ray. */
   except?: BodyId;
 }
+/** At which bodies many queries look. */
+export interface QueriesOptions extends AnswerOptions {
+  /** Those that a body with this filter may touch. */
+  filter?: Filter;
+  /** For each query one that it leaves out, such as the body that casts the ray. */
+  except?: ArrayLike<BodyId>;
+}
 /** The distance of two surfaces is between these limits; infinite ones say that nothing is known. */
 export interface Limits { lower: number; upper: number }
 
 export const answerKeys: Keys<AnswerOptions> = { probe: true };
 export const pairKeys: Keys<PairOptions> = { probe: true, distance: "number" };
-const queryKeys: Keys<QueryOptions> = { probe: true, filter: true, except: "number" };
-
-/** The last arguments of an export for a call without a probe: whether it asks, a motion and a map. */
-export const noProbe = [0, 0, 0] as const;
-
-/** Returns numbers in the order of options_at() in browser/module/answers.cpp. */
-export function queryNumbers(options: QueryOptions, call: string): number[] {
-  checkKeys(options, queryKeys, "options", call);
-  return [options.filter === undefined ? 0 : 1, ...filterNumbers(options.filter ?? {}, call), options.except ?? -1];
-}
+export const queryKeys: Keys<QueryOptions> = { probe: true, filter: true, except: "number" };
+export const queriesKeys: Keys<QueriesOptions> = { probe: true, filter: true, except: true };

@@ -1,11 +1,11 @@
 // Callbacks of an advancing world: states of bodies, and responses to events.
 import { BodyMap } from "./body_map.js";
-import { Event } from "./event.js";
-import type { Module } from "./module.js";
+import { type Event, eventFrom } from "./event.js";
+import type { Callback, Module, Value } from "./module.js";
 import { Motion } from "./motion.js";
 import { checkKeys, type Keys, refusePromise, requireNumbers, shown } from "./options.js";
-import { type BodyAction, bodyActions, eventSize } from "./records.js";
-import { bounced, type Bounces, checkBounce, roughNumbers, StepPotential } from "./response.js";
+import { type BodyAction, bodyActions, type gameAt, responseAt, type runAt } from "./records.js";
+import { bounced, type Bounces, checkBounce, roughBlock, StepPotential } from "./response.js";
 import { rotationNumbers, type RotationProbeFunction } from "./rigid_body.js";
 import { Scene } from "./scene.js";
 import { pairStateOf, type Vec3, vector } from "./state.js";
@@ -63,9 +63,14 @@ const answerKeys: Keys<Answer> = {
   first: true, second: true, firstAngularVelocity: true, secondAngularVelocity: true, firstAction: true,
   secondAction: true, turnedBack: "boolean", pairState: "number", stop: "boolean",
 };
-/** The vectors of an answer, in the order in which the module reads them. */
-const answerVectors = ["first", "second", "firstAngularVelocity", "secondAngularVelocity"] as const;
-/** Returns the number of an action in the module. */
+/** The vectors of an answer, and where they are in a ks_response, with whether they are there. */
+const answerVectors = [
+  ["first", responseAt.turnsFirst, responseAt.firstVelocity],
+  ["second", responseAt.turnsSecond, responseAt.secondVelocity],
+  ["firstAngularVelocity", responseAt.spinsFirst, responseAt.firstAngularVelocity],
+  ["secondAngularVelocity", responseAt.spinsSecond, responseAt.secondAngularVelocity],
+] as const;
+/** Returns the number of an action in C. */
 function actionNumber(action: BodyAction | undefined, what: string): number {
   if (action === undefined) return 0;
   const number = bodyActions.indexOf(action) + 1;
@@ -73,81 +78,110 @@ function actionNumber(action: BodyAction | undefined, what: string): number {
   return number;
 }
 
-/** Returns the addresses of the motion and of the map, of which at most one is not 0. */
-export function moving(probe: Probe): [motion: number, map: number] {
-  return [probe instanceof Motion ? probe.address : 0, probe instanceof BodyMap ? probe.address : 0];
+/** Calls action(probe of C, its argument). */
+export function withProbe<T>(module: Module, probe: Probe, call: string, action: (probe: number, user: number) => T): T {
+  if (probe instanceof Motion || probe instanceof BodyMap) {
+    const { address } = probe;
+    const pointer = module.pointer(probe instanceof Motion ? "probe_motion" : "probe_map");
+    return module.asking(null, [address], () => action(pointer, Number(address)));
+  }
+  if (typeof probe !== "function") throw new TypeError(`${call}: probe must be a function, a Motion or a BodyMap`);
+  const asked: Callback = (bodies, count, time, states) => {
+    // The function may call the module, so its memory may grow.
+    const answer = new Float64Array(6 * count!).fill(NaN);
+    refusePromise(probe(module.idsAt(bodies!, count!), time!, answer), "probe");
+    module.f64.set(answer, states! >> 3);
+  };
+  return module.asking(asked, [], (user) => action(module.pointer("probe"), user));
 }
 
-const respondings = { nothing: 0, bounces: 1, asksJavaScript: 2, asInScene: 3, byPotential: 4, rough: 5 } as const;
-/** How many numbers of the module an answer has. */
-export const responseSize = 22;
+/** Returns the callback of a ks_rotation_probe. */
+export function rotating(module: Module, probe: RotationProbeFunction): Callback {
+  return (bodies, count, time, rotations) => {
+    const answer = new Float64Array(rotationNumbers * count!).fill(NaN);
+    refusePromise(probe(module.idsAt(bodies!, count!), time!, answer), "rotation probe");
+    module.f64.set(answer, rotations! >> 3);
+  };
+}
 
-/** How to respond, for the module: a number, masses and so on, and a scene or a potential; and the function to call. */
-export type Responding = [responding: number, bounces: Bounces, other: number, asked: RespondFunction | null];
-
-export function responded(respond: RunOptions["respond"], call = "run"): Responding {
-  if (respond === undefined) return [respondings.nothing, {}, 0, null];
-  if (respond instanceof Scene) return [respondings.asInScene, {}, respond.address, null];
-  if (respond instanceof StepPotential) return [respondings.byPotential, {}, respond.address, null];
-  if (typeof respond === "function") return [respondings.asksJavaScript, {}, 0, respond];
-  checkKeys(respond, bounceKeys, "respond", call);
-  checkBounce(respond, call);
-  if (respond.masses !== undefined) requireNumbers(respond.masses, "masses", call);
-  if (respond.roughness === undefined) return [respondings.bounces, respond, 0, null];
-  if (respond.masses !== undefined || respond.restingSpeed)
-    throw new TypeError(`${call}: respond: roughness stands in place of masses and a resting speed`);
-  return [respondings.rough, { ...respond, masses: roughNumbers(respond.roughness, call) }, 0, null];
+/** Returns the callback of a ks_respond. */
+function responding(module: Module, respond: RespondFunction, mayStop: boolean): Callback {
+  return (event, response) => {
+    const happened = eventFrom(module, event!);
+    const answer = respond(happened);
+    refusePromise(answer, "respond");
+    if (answer === undefined) return;
+    checkKeys(answer, answerKeys, "answer", "respond", true);
+    if (answer.stop && !mayStop) throw new TypeError("respond: stop needs atStop in the options of run");
+    const put = (at: number, word: number) => module.putWord(response! + at, word);
+    for (const [name, isThere, at] of answerVectors) {
+      const velocity = answer[name];
+      if (velocity === undefined || (bounced in answer && !canBeTurned(happened, name))) continue;
+      module.putVector(response! + at, vector(velocity, name, "respond"));
+      put(isThere, 1);
+    }
+    put(responseAt.firstAction, actionNumber(answer.firstAction, "firstAction"));
+    put(responseAt.secondAction, actionNumber(answer.secondAction, "secondAction"));
+    put(responseAt.stop, answer.stop ? 1 : 0);
+    put(responseAt.turnedBack, answer.turnedBack ? 1 : 0);
+    if (answer.pairState === undefined) return;
+    put(responseAt.setsPairState, 1);
+    put(responseAt.pairState, pairStateOf(answer.pairState, "pairState", "respond"));
+  };
 }
 
 /** Returns false for what no bounce turns: walls, static and sleeping bodies, infinite masses, and events but begins. */
-function canBeTurned(event: Event, name: (typeof answerVectors)[number]): boolean {
+function canBeTurned(event: Event, name: (typeof answerVectors)[number][0]): boolean {
   const [body, traits, mass] = name.startsWith("first")
     ? [event.first, event.firstTraits, event.firstMass] : [event.second, event.secondTraits, event.secondMass];
   return body !== null && !traits.isStatic && !traits.isSleeping && mass !== Infinity &&
          (event.kind === "contact_begin" || event.kind === "wall_begin");
 }
 
-/** Callbacks of the module, which pass tables of numbers to these functions. */
-export function asking(
-  module: Module, probe: ProbeFunction | null, respond: RespondFunction | null, rotate: RotationProbeFunction | null,
-  atStop?: (event: Event) => void,
-) {
-  const eventAt = (numbers: number) => new Event(module.numbersAt(numbers, eventSize).slice());
-  return {
-    rotate(count: number, ids: number, time: number, rotations: number): void {
-      const answer = new Float64Array(rotationNumbers * count).fill(NaN);
-      refusePromise(rotate!(module.numbersAt(ids, count).slice(), time, answer), "rotation probe");
-      module.numbersAt(rotations, answer.length).set(answer);
-    },
-    probe(count: number, ids: number, time: number, states: number): void {
-      // The function may call the module, so its memory may grow.
-      const answer = new Float64Array(6 * count).fill(NaN);
-      refusePromise(probe!(module.numbersAt(ids, count).slice(), time, answer), "probe");
-      module.numbersAt(states, 6 * count).set(answer);
-    },
-    respond(event: number, response: number): void {
-      const happened = eventAt(event);
-      const answer = respond!(happened);
-      refusePromise(answer, "respond");
-      if (answer !== undefined) checkKeys(answer, answerKeys, "answer", "respond", true);
-      if (answer?.stop && atStop === undefined) throw new TypeError("respond: stop needs atStop in the options of run");
-      const numbers = new Float64Array(responseSize);
-      const isBounce = answer !== undefined && bounced in answer;
-      for (const [k, name] of answerVectors.entries()) {
-        const velocity = answer?.[name];
-        if (velocity === undefined || (isBounce && !canBeTurned(happened, name))) continue;
-        numbers.set(vector(velocity, name, "respond"), 4 * k);
-        numbers[4 * k + 3] = 1;
-      }
-      numbers[16] = actionNumber(answer?.firstAction, "firstAction");
-      numbers[17] = actionNumber(answer?.secondAction, "secondAction");
-      numbers[18] = answer?.stop ? 1 : 0;
-      numbers[19] = answer?.turnedBack ? 1 : 0;
-      if (answer?.pairState !== undefined) numbers.set([1, pairStateOf(answer.pairState, "pairState", "respond")], 20);
-      module.numbersAt(response, numbers.length).set(numbers);
-    },
-    stop(event: number): void {
-      refusePromise(atStop!(eventAt(event)), "atStop");
-    },
-  };
+/** What answers the events of a run or a game. */
+export interface Answering {
+  /** NaN: bodies pass through each other. */
+  restitution: number;
+  restingSpeed: number;
+  masses: ArrayLike<number>;
+  scene: Value;
+  /** The function of the module that answers instead, and its argument. */
+  pointer: number;
+  user: number;
+  /** The function of JavaScript that answers instead; its argument is its number. */
+  callback: Callback | null;
+  /** What has to be there as long as the answers. */
+  kept: unknown;
+}
+
+export function answeringOf(module: Module, respond: RunOptions["respond"], call: string, mayStop: boolean): Answering {
+  const none: Answering =
+    { restitution: NaN, restingSpeed: 0, masses: [], scene: 0, pointer: 0, user: 0, callback: null, kept: respond };
+  if (respond === undefined) return none;
+  if (respond instanceof Scene) return { ...none, scene: respond.address };
+  if (respond instanceof StepPotential)
+    return { ...none, pointer: module.pointer("potential"), user: Number(respond.address), kept: respond.block };
+  if (typeof respond === "function")
+    return { ...none, pointer: module.pointer("respond"), callback: responding(module, respond, mayStop) };
+  checkKeys(respond, bounceKeys, "respond", call);
+  checkBounce(respond, call);
+  const { restitution = 1, restingSpeed = 0, masses = [], roughness } = respond;
+  requireNumbers(masses, "masses", call);
+  if (roughness === undefined) return { ...none, restitution, restingSpeed, masses };
+  if (respond.masses !== undefined || respond.restingSpeed)
+    throw new TypeError(`${call}: respond: roughness stands in place of masses and a resting speed`);
+  const block = roughBlock(module, restitution, roughness, call);
+  return { ...none, pointer: module.pointer("rough"), user: block.address, kept: block };
+}
+
+/** Returns the address of a ks_run_definition or a ks_game_definition; `user` is the number of a callback. */
+export function answeringRecord(
+  module: Module, layout: typeof runAt | typeof gameAt, answering: Answering, user: number,
+): number {
+  const at = module.record(layout);
+  module.putNumber(at + layout.restitution, answering.restitution);
+  module.putNumber(at + layout.restingSpeed, answering.restingSpeed);
+  module.putWord(at + layout.respond, answering.pointer);
+  module.putWord(at + layout.respondUser, answering.callback === null ? answering.user : user);
+  return at;
 }

@@ -1,8 +1,9 @@
-// Definitions of bodies, and shapes in numbers for the module.
+// Definitions of bodies, and shapes.
 import { type Box, boxKeys } from "./definition.js";
 import type { Filter } from "./filter.js";
+import type { Module } from "./module.js";
 import { checkKeys, type Keys, requireNumbers } from "./options.js";
-import { type BodyFields, bodyFieldKeys, type MotionLimits, motionLimitsFieldKeys } from "./records.js";
+import { bodyAt, type BodyFields, bodyFieldKeys, type MotionLimits, motionLimitsFieldKeys, putBodyFields, shapeAt } from "./records.js";
 import { type PerBody, type States, type Vec3, vector } from "./state.js";
 
 /** The part of a definition that does not depend on the place. */
@@ -104,34 +105,73 @@ export function shapeFrom([kind, ...parts]: number[]): Shape {
   };
 }
 
-export function shapeNumbers(shape: Shape, call: string): [kind: number, numbers: number[]] {
-  const of = (values: Vec3, what: string) => vector(values, what, call);
+/** Calls action(address of a ks_shape). */
+export function withShape<T>(module: Module, shape: Shape, call: string, action: (shape: number) => T): T {
   checkKeys<Partial<Record<ShapeName, unknown>>>(shape, shapeKeys, "shape", call);
-  if ("ball" in shape) checkKeys(shape.ball, ballKeys, "ball", call);
-  if ("halfSpace" in shape) checkKeys(shape.halfSpace, halfSpaceKeys, "halfSpace", call);
-  if ("box" in shape) checkKeys(shape.box, boxKeys, "box", call);
-  if ("ball" in shape) return [0, [...of(shape.ball.centre, "centre"), shape.ball.radius]];
-  if ("halfSpace" in shape) return [1, [...of(shape.halfSpace.normal, "normal"), shape.halfSpace.offset]];
-  if ("box" in shape) return [2, [...of(shape.box.lower, "lower"), ...of(shape.box.upper, "upper")]];
-  if ("triangle" in shape) return [3, shape.triangle.flatMap((corner) => of(corner, "triangle"))];
-  if ("mesh" in shape) return [4, meshNumbers(shape.mesh, call)];
-  if ("chain" in shape) return [5, chainNumbers(shape.chain, call)];
-  throw new TypeError(`${call}: shape must be a ball, a halfSpace, a box, a triangle, a mesh or a chain`);
+  return module.with(() => {
+    const at = module.room(shapeAt.size);
+    const put = (kind: number, what: string, points: readonly Vec3[], number = 0) => {
+      module.putWord(at, kind);
+      for (const [k, point] of points.entries())
+        module.putVector(at + shapeAt.points + 24 * k, vector(point, what, call));
+      module.putNumber(at + shapeAt.number, number);
+      return action(at);
+    };
+    if ("ball" in shape) {
+      checkKeys(shape.ball, ballKeys, "ball", call);
+      return put(0, "centre", [shape.ball.centre], shape.ball.radius);
+    }
+    if ("halfSpace" in shape) {
+      checkKeys(shape.halfSpace, halfSpaceKeys, "halfSpace", call);
+      return put(1, "normal", [shape.halfSpace.normal], shape.halfSpace.offset);
+    }
+    if ("box" in shape) {
+      checkKeys(shape.box, boxKeys, "box", call);
+      vector(shape.box.lower, "lower", call);
+      return put(2, "upper", [shape.box.lower, shape.box.upper]);
+    }
+    if ("triangle" in shape) return put(3, "triangle", shape.triangle);
+    if (!("mesh" in shape || "chain" in shape))
+      throw new TypeError(`${call}: shape must be a ball, a halfSpace, a box, a triangle, a mesh or a chain`);
+    const mesh = "mesh" in shape ? meshOf(module, shape.mesh, call) : chainOf(module, shape.chain, call);
+    try {
+      module.putWord(at, 4);
+      module.u64[(at + shapeAt.number) >> 3] = mesh;
+      return action(at);
+    } finally {
+      module.check("ks_mesh_destroy", mesh);
+    }
+  });
 }
 
-function chainNumbers(chain: ArrayLike<number>, call: string): number[] {
+function chainOf(module: Module, chain: ArrayLike<number>, call: string): bigint {
   requireNumbers(chain, "chain", call);
   if (chain.length % 2 !== 0) throw new TypeError(`${call}: chain must have two numbers for each point, but there are ${chain.length}`);
-  return [chain.length / 2, ...Array.from(chain)];
+  const points = new Float64Array(1.5 * chain.length);
+  for (let k = 0; k < chain.length; ++k) points[k + (k >> 1)] = chain[k]!;
+  return module.handle("ks_mesh_create_chain", module.numbers(points), chain.length / 2);
 }
 
-function meshNumbers(mesh: MeshShape, call: string): number[] {
+function meshOf(module: Module, mesh: MeshShape, call: string): bigint {
   checkKeys(mesh, meshKeys, "mesh", call);
-  const counts = (["vertices", "corners"] as const).map((name) => {
+  for (const name of ["vertices", "corners"] as const) {
     requireNumbers(mesh[name], name, call);
     if (mesh[name].length % 3 !== 0)
       throw new TypeError(`${call}: ${name} must have three numbers each, but there are ${mesh[name].length}`);
-    return mesh[name].length / 3;
-  });
-  return [...counts, ...Array.from(mesh.vertices), ...Array.from(mesh.corners)];
+  }
+  // No vertex has the largest number.
+  const corners = Array.from(mesh.corners, (corner) => (Number.isInteger(corner) && corner >= 0 && corner < 2 ** 32 ? corner : -1));
+  return module.handle("ks_mesh_create", module.numbers(mesh.vertices), mesh.vertices.length / 3, module.words(corners),
+                       corners.length / 3);
+}
+
+/** Returns the address of a ks_body_definition, for the duration of a call. */
+export function bodyRecord(module: Module, body: BodyFields, call: string): number {
+  const at = module.record(bodyAt);
+  putBodyFields(module, at, body, call);
+  return at;
+}
+/** Does the same for a body whose state and limits come from a motion. */
+export function movedRecord(module: Module, body: MovedBodyDefinition, call: string): number {
+  return bodyRecord(module, { ...body, position: [0, 0, 0] }, call);
 }

@@ -1,10 +1,11 @@
 // BodyMap: which body of a world is which body of which motion.
-import { type MovedBodyDefinition, movedBodyKeys, movedKeys, type MovedOptions, type Shape, shapeNumbers } from "./body.js";
-import { Owned, theModule } from "./module.js";
-import { type FrameMotion, type Motion, rotationArguments, timeArgument } from "./motion.js";
+import {
+  type MovedBodyDefinition, movedBodyKeys, movedKeys, type MovedOptions, movedRecord, type Shape, withShape,
+} from "./body.js";
+import { type Module, Owned, theModule, type Value } from "./module.js";
+import { type FrameMotion, type Motion, numberIn, rotationArguments, timeArgument } from "./motion.js";
 import { checkKeys, requireNumbers } from "./options.js";
-import { bodySize, putBodyFields } from "./records.js";
-import { movedRigidArguments, type MovedRigidBodyDefinition, type RigidPart } from "./rigid_body.js";
+import { movedRigidRecords, type MovedRigidBodyDefinition, type RigidPart } from "./rigid_body.js";
 import { type BodyId, countOf, each, type PerBody, sixOf, type State, type Vec3, vector } from "./state.js";
 import type { World } from "./world.js";
 
@@ -37,38 +38,25 @@ export class BodyMap extends Owned {
   add(world: World, motion: Motion, number: number, body: MovedBodyDefinition = {}): BodyId {
     const call = "BodyMap.add";
     checkKeys(body, movedBodyKeys, "body", call);
-    const module = theModule();
-    const id = module.with((scratch) => module.call(
-      "map_add", this.address, ...addressesOf(world, motion, call), number, scratch.numbers(like(body, call))));
-    if (id < 0) throw module.error();
-    this.keep(motion);
-    return id;
+    return this.added(world, motion, number, call, (module, addresses, id) =>
+      module.check("map_add", ...addresses, movedRecord(module, body, call), id));
   }
   /** Adds a body of a motion that carries a box, a triangle or a mesh: see World.addMovingShape(). Returns its id. */
   addMovingShape(world: World, motion: Motion, number: number, shape: Shape, options: MovedOptions = {}): BodyId {
     const call = "BodyMap.addMovingShape";
     checkKeys(options, movedKeys, "options", call);
-    const [kind, parts] = shapeNumbers(shape, call);
-    const module = theModule();
-    const id = module.with((scratch) => module.call(
-      "map_add_moving_shape", this.address, ...addressesOf(world, motion, call), number, kind, scratch.numbers(parts),
-      scratch.numbers(like(options, call))));
-    if (id < 0) throw module.error();
-    this.keep(motion);
-    return id;
+    return this.added(world, motion, number, call, (module, addresses, id) => withShape(module, shape, call, (made) =>
+      module.check("map_add_moving_shape", ...addresses, made, movedRecord(module, options, call), id)));
   }
   /** Adds a body of a motion as the position of a rigid body: see World.addRigidBody(). Returns its id. */
   addRigidBody(
     world: World, motion: Motion, number: number, parts: readonly RigidPart[], body: MovedRigidBodyDefinition = {},
   ): BodyId {
     const call = "BodyMap.addRigidBody";
-    const module = theModule();
-    const id = module.with((scratch) => module.call(
-      "map_add_rigid_body", this.address, ...addressesOf(world, motion, call), number,
-      ...movedRigidArguments(scratch, parts, body, call)));
-    if (id < 0) throw module.error();
-    this.keep(motion);
-    return id;
+    return this.added(world, motion, number, call, (module, addresses, id) => {
+      const [like, rigid] = movedRigidRecords(module, parts, body, call);
+      module.check("map_add_rigid_body", ...addresses, like, rigid, id);
+    });
   }
   /**
    * Adds all bodies of the motion in the order of their numbers or, after an error, none. Returns their ids. Radii are
@@ -80,10 +68,11 @@ export class BodyMap extends Owned {
     const addresses = addressesOf(world, motion, call);
     const sizes = each(radii, motion.size, "radii", call);
     const module = theModule();
-    const ids = module.with((scratch) => {
-      module.require(module.call("map_add_all", this.address, ...addresses, sizes.length,
-                                 scratch.numbers(sizes), scratch.numbers(like(options, call))));
-      return module.answer();
+    const ids = module.with(() => {
+      const found = module.room(12 * sizes.length);
+      const added = module.word("map_add_all", this.address, ...addresses, sizes.length, module.numbers(sizes),
+                                movedRecord(module, options, call), found);
+      return module.idsAt(found, added);
     });
     this.keep(motion);
     return ids;
@@ -99,8 +88,7 @@ export class BodyMap extends Owned {
   }
   /** Removes the body. A motion that does not support removal keeps it, but is no longer asked for it. */
   remove(world: World, body: BodyId): void {
-    const module = theModule();
-    module.require(module.call("map_remove", this.address, Owned.addressOf(world, "World", "world", "BodyMap.remove"), body));
+    this.change("map_remove", world, body, null, "BodyMap.remove");
   }
   /**
    * Adds the next frame of a FrameMotion, three numbers for each of its bodies. The world learns all new velocities, so
@@ -114,9 +102,9 @@ export class BodyMap extends Owned {
     const call = "BodyMap.push";
     const count = countOf(positions, call);
     const module = theModule();
-    module.with((scratch) => module.require(module.call(
-      "map_push", this.address, ...addressesOf(world, frames, call), count, scratch.numbers(positions),
-      timeArgument(scratch, time), ...rotationArguments(scratch, rotations, call))));
+    module.with(() => module.check(
+      "map_push", this.address, ...addressesOf(world, frames, call), count, module.numbers(positions),
+      timeArgument(module, time), ...rotationArguments(module, rotations, call)));
   }
   /**
    * Returns seven numbers for each: orientation w, x, y, z and angular velocity, as a RotationProbeFunction sets them.
@@ -127,25 +115,29 @@ export class BodyMap extends Owned {
   rotations(time: number, bodies: ArrayLike<BodyId>): Float64Array {
     requireNumbers(bodies, "bodies", "BodyMap.rotations");
     const module = theModule();
-    return module.with((scratch) => {
-      module.require(module.call("map_rotations", this.address, time, bodies.length, scratch.numbers(bodies)));
-      return module.answer();
+    return module.with(() => {
+      const rotations = module.room(56 * bodies.length);
+      module.check("map_rotations", this.address, time, bodies.length, module.ids(bodies, "BodyMap.rotations"), rotations);
+      return module.numbersAt(rotations, 7 * bodies.length);
     });
   }
   /** Returns the motion and the number of the body there; null if this map does not know it. */
   find(body: BodyId): { motion: Motion; number: number } | null {
     const module = theModule();
-    module.call("map_find", this.address, body);
-    const [place, number] = module.answer();
-    return place === undefined ? null : { motion: this.#motions[place]!, number: number! };
+    return module.with(() => {
+      const number = module.room(8);
+      const place = module.call("map_find", this.address, module.id(body, "BodyMap.find"), number);
+      return place < 0 ? null : { motion: this.#motions[place]!, number: module.i32[number >> 2]! };
+    });
   }
   /** Returns six numbers for each: position and velocity, as Motion.states() does; NaN for unknown bodies. */
   states(time: number, bodies: ArrayLike<BodyId>): Float64Array {
     requireNumbers(bodies, "bodies", "BodyMap.states");
     const module = theModule();
-    return module.with((scratch) => {
-      module.call("map_states", this.address, time, bodies.length, scratch.numbers(bodies));
-      return module.answer();
+    return module.with(() => {
+      const states = module.room(48 * bodies.length);
+      module.call("map_states", this.address, time, bodies.length, module.ids(bodies, "BodyMap.states"), states);
+      return module.numbersAt(states, 6 * bodies.length);
     });
   }
   /**
@@ -156,10 +148,10 @@ export class BodyMap extends Owned {
     if (from.length !== to.length)
       throw new RangeError(`withMotions: to must have as many motions as from, ${from.length}, but has ${to.length}`);
     const module = theModule();
-    const address = module.with((scratch) => {
-      const addresses = (motions: readonly Motion[]) => scratch.addresses(
-        motions.map((motion) => Owned.addressOf(motion, "Motion", "motion", "withMotions")));
-      return module.require(module.call("map_with_motions", this.address, from.length, addresses(from), addresses(to)));
+    const address = module.with(() => {
+      const addresses = (motions: readonly Motion[]) =>
+        module.words(motions.map((motion) => Number(Owned.addressOf(motion, "Motion", "motion", "withMotions"))));
+      return module.word("map_with_motions", this.address, from.length, addresses(from), addresses(to));
     });
     return new BodyMap(existing, address, to);
   }
@@ -167,20 +159,28 @@ export class BodyMap extends Owned {
   private keep(motion: Motion): void {
     if (!this.#motions.includes(motion)) this.#motions.push(motion);
   }
-  private change(name: string, world: World, body: BodyId, numbers: number[], call: string): void {
+  /** Calls add(), which adds a body of the motion and writes its id. */
+  private added(
+    world: World, motion: Motion, number: number, call: string,
+    add: (module: Module, addresses: Value[], id: number) => void,
+  ): BodyId {
+    const module = theModule();
+    const id = module.with(() => {
+      const at = module.room(16);
+      add(module, [this.address, ...addressesOf(world, motion, call), numberIn(number)], at);
+      return module.at(at).id(0);
+    });
+    this.keep(motion);
+    return id;
+  }
+  private change(name: string, world: World, body: BodyId, numbers: number[] | null, call: string): void {
     const address = Owned.addressOf(world, "World", "world", call);
     const module = theModule();
-    module.with((scratch) => module.require(module.call(name, this.address, address, body, scratch.numbers(numbers))));
+    module.with(() => module.check(name, this.address, address, module.id(body, call),
+                                   ...(numbers === null ? [] : [module.numbers(numbers)])));
   }
 }
 
-function addressesOf(world: World, motion: Motion, call: string): [world: number, motion: number] {
+function addressesOf(world: World, motion: Motion, call: string): [world: Value, motion: Value] {
   return [Owned.addressOf(world, "World", "world", call), Owned.addressOf(motion, "Motion", "motion", call)];
-}
-
-/** Returns the table of a body whose state and limits come from a motion. */
-function like(body: MovedBodyDefinition, call: string): Float64Array {
-  const numbers = new Float64Array(bodySize);
-  putBodyFields(numbers, 0, { ...body, position: [0, 0, 0] }, call);
-  return numbers;
 }

@@ -1,8 +1,8 @@
 // Definitions of worlds.
-import { type Filter, filterFrom, filterNumbers } from "./filter.js";
-import type { Module } from "./module.js";
+import { type Filter, filterFrom, putFilter } from "./filter.js";
+import type { Module, Value } from "./module.js";
 import { checkKeys, type Keys, shown } from "./options.js";
-import { putWorldFields, worldFieldKeys, type WorldFields, worldFieldsOf, worldSize } from "./records.js";
+import { putWorldFields, worldAt, worldFieldKeys, type WorldFields, worldFieldsOf } from "./records.js";
 import { type Vec3, vector } from "./state.js";
 
 /** All points with lower <= p <= upper on every axis. */
@@ -26,33 +26,36 @@ const definitionKeys: Keys<WorldDefinition> = { box: true, ...worldFieldKeys, wa
 const periodicKeys: Keys<NonNullable<WorldDefinition["periodic"]>> = { x: "boolean", y: "boolean", z: "boolean" };
 export const boxKeys: Keys<Box> = { lower: true, upper: true };
 
-/** Returns numbers in the order of definition_at() in browser/module/world.cpp. */
-export function definitionNumbers(definition: WorldDefinition): number[] {
+/** Returns the address of a ks_world_definition, for the duration of a call. */
+export function definitionRecord(module: Module, definition: WorldDefinition): number {
   checkKeys(definition, definitionKeys, "definition", "World");
   const { box, periodic, wallFilter, dimensions = 3 } = definition;
   if (dimensions !== 2 && dimensions !== 3)
     throw new RangeError(`World: dimensions must be 2 or 3, but is ${shown(dimensions)}`);
   if (box !== undefined) checkKeys(box, boxKeys, "box", "World");
   if (periodic !== undefined) checkKeys(periodic, periodicKeys, "periodic", "World");
-  const corners = box === undefined
-    ? [0, 0, 0, 0, 0, 0]
-    : [...vector(box.lower, "box.lower", "World"), ...vector(box.upper, "box.upper", "World")];
-  const fields = new Float64Array(worldSize);
-  putWorldFields(fields, 0, definition, "World");
-  return [
-    ...fields, box === undefined ? 0 : 1, ...corners,
-    wallFilter === undefined ? 0 : 1, ...filterNumbers(wallFilter ?? {}, "World"),
-  ];
+  const at = module.record(worldAt);
+  putWorldFields(module, at, definition, "World");
+  if (box !== undefined) {
+    module.putWord(at + worldAt.hasBox, 1);
+    module.putVector(at + worldAt.box, vector(box.lower, "box.lower", "World"));
+    module.putVector(at + worldAt.box + 24, vector(box.upper, "box.upper", "World"));
+  }
+  module.putWord(at + worldAt.hasWallFilter, wallFilter === undefined ? 0 : 1);
+  putFilter(module, at + worldAt.wallFilter, wallFilter ?? {}, "World");
+  return at;
 }
 
-/** Returns the definition at this address in the module. */
-export function definitionAt(module: Module, address: number): Definition {
-  module.call("definition_numbers", address);
-  const numbers = module.answer();
-  const more = numbers.subarray(worldSize);
-  return {
-    ...worldFieldsOf(numbers),
-    ...(more[0] === 0 ? {} : { box: { lower: more.subarray(1, 4), upper: more.subarray(4, 7) } }),
-    ...(more[7] === 0 ? {} : { wallFilter: filterFrom(more, 8) }),
-  };
+/** Returns the definition that a function of the module tells of an object. */
+export function definitionOf(module: Module, name: string, object: Value): Definition {
+  return module.with(() => {
+    const at = module.record(worldAt);
+    module.call(name, object, at);
+    const from = module.copy(at, worldAt.size);
+    return {
+      ...worldFieldsOf(from),
+      ...(from.word(worldAt.hasBox) === 0 ? {} : { box: { lower: from.vector(worldAt.box), upper: from.vector(worldAt.box + 24) } }),
+      ...(from.word(worldAt.hasWallFilter) === 0 ? {} : { wallFilter: filterFrom(from, worldAt.wallFilter) }),
+    };
+  });
 }

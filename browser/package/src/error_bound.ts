@@ -1,4 +1,5 @@
-// Upper limits of errors, and their numbers for the module.
+// Upper limits of errors.
+import type { Memory, Place } from "./memory.js";
 import { checkKeys, type Keys, numberOf, shown } from "./options.js";
 import type { PerBody } from "./state.js";
 
@@ -12,15 +13,17 @@ export type ErrorBounds = PerBody | { horizontal: PerBody; vertical: PerBody };
 
 export const boundKeys: Keys<{ horizontal: PerBody; vertical: PerBody }> = { horizontal: true, vertical: true };
 
-/** Returns three numbers: 0 and a radius, or 1, the horizontal and the vertical limit. */
-export function boundNumbers(bound: ErrorBound, what: string, call: string): [number, number, number] {
-  if (typeof bound === "number") return [0, bound, bound];
-  if (typeof bound !== "object") throw new TypeError(`${call}: ${what} must be a number or an object, but is ${shown(bound)}`);
-  checkKeys(bound, boundKeys, what, call);
-  return [1, numberOf(bound.horizontal, `${what}.horizontal`, call), numberOf(bound.vertical, `${what}.vertical`, call)];
+/** Writes a ks_error_bound: its kind, and its limits in the plane and along the vertical. */
+export function putBound(to: Memory, at: number, bound: ErrorBound, what: string, call: string): void {
+  const isBall = typeof bound === "number";
+  if (!isBall && typeof bound !== "object")
+    throw new TypeError(`${call}: ${what} must be a number or an object, but is ${shown(bound)}`);
+  if (!isBall) checkKeys(bound, boundKeys, what, call);
+  to.putWord(at, isBall ? 0 : 1);
+  to.putNumber(at + 8, isBall ? bound : numberOf(bound.horizontal, `${what}.horizontal`, call));
+  to.putNumber(at + 16, isBall ? bound : numberOf(bound.vertical, `${what}.vertical`, call));
 }
 
-/** Reads an error bound from its three numbers. */
-export function boundOf(numbers: ArrayLike<number>): ErrorBound {
-  return numbers[0] === 0 ? numbers[1]! : { horizontal: numbers[1]!, vertical: numbers[2]! };
+export function boundOf(from: Place, at: number): ErrorBound {
+  return from.word(at) === 0 ? from.number(at + 8) : { horizontal: from.number(at + 8), vertical: from.number(at + 16) };
 }

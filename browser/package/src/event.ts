@@ -1,10 +1,11 @@
 // Events of a world: contacts and the like, each at its exact time.
-import { theModule } from "./module.js";
+import { type Module, theModule } from "./module.js";
+import type { Place } from "./memory.js";
 import { shown } from "./options.js";
-import { EventFields, eventSize } from "./records.js";
+import { eventAt, EventFields } from "./records.js";
 import type { BodyId } from "./state.js";
 
-/** An event. It reads from numbers that never change. */
+/** An event, in a copy that never changes. */
 export class Event extends EventFields {
   /** Returns the other body of the pair; null if there is none, or `body` has no part in the event. */
   partnerOf(body: BodyId): BodyId | null {
@@ -18,16 +19,22 @@ export class Event extends EventFields {
   }
 }
 
+/** Returns a copy of the event at an address of the module. */
+export function eventFrom(module: Module, address: number): Event {
+  const { numbers, words } = module.copy(address, eventAt.size);
+  return new Event(numbers, words);
+}
+
 /** Many events, in order. */
 export class Events implements Iterable<Event> {
   /** @internal */
-  constructor(readonly numbers: Float64Array) {}
-  get length(): number { return this.numbers.length / eventSize; }
+  constructor(readonly records: Place) {}
+  get length(): number { return 8 * this.records.numbers.length / eventAt.size; }
   /** Returns the event at a place, from 0, or undefined beyond the last. */
   at(place: number): Event | undefined {
     const from = place < 0 ? place + this.length : place;
     if (!(from >= 0 && from < this.length)) return undefined;
-    return new Event(this.numbers.subarray(from * eventSize, (from + 1) * eventSize));
+    return new Event(this.records.numbers, this.records.words, from * eventAt.size);
   }
   /** Goes through all events in order. */
   *[Symbol.iterator](): Iterator<Event> {
@@ -40,30 +47,31 @@ export class Events implements Iterable<Event> {
  * numbers have equal events, to the last bit.
  */
 export class EventHash {
-  /** Two numbers of 64 bits and the value, each as two halves. */
-  private parts = new Float64Array(6);
+  /** A ks_event_hash. */
+  private parts: Float64Array = new Float64Array(2);
 
   /** Adds one event or several. */
   add(events: Event | Events): this {
     if (!(events instanceof Event || events instanceof Events))
       throw new TypeError(`EventHash.add: events must be an Event or Events, but is ${shown(events)}`);
     const module = theModule();
-    module.with((scratch) => {
-      const parts = scratch.numbers(this.parts);
-      const numbers = events.numbers;
-      module.call("hash_add", parts, scratch.numbers(numbers), numbers.length / eventSize);
-      this.parts = module.numbersAt(parts, 6).slice();
+    const { numbers, from } = events instanceof Event ? events : events.records;
+    const [first, count] = events instanceof Event ? [from >> 3, 1] : [0, events.length];
+    module.with(() => {
+      const parts = module.numbers(this.parts);
+      const at = module.numbers(numbers.subarray(first, first + count * (eventAt.size / 8)));
+      for (let k = 0; k < count; ++k) module.check("ks_event_hash_add", parts, at + k * eventAt.size);
+      this.parts = module.numbersAt(parts, 2);
     });
     return this;
   }
   /** 16 hexadecimal digits. */
   get value(): string {
-    if (this.parts[2] === 0 && this.parts[3] === 0) this.add(new Events(new Float64Array()));
-    const half = (k: number) => this.parts[k]!.toString(16).padStart(8, "0");
-    return half(5) + half(4);
+    const module = theModule();
+    return hexOf(module.with(() => module.handle("ks_event_hash_value", module.numbers(this.parts))));
   }
   get count(): number {
-    return this.parts[2]! + this.parts[3]! * 2 ** 32;
+    return Number(new BigUint64Array(this.parts.buffer)[1]);
   }
   /** Returns a copy. */
   clone(): EventHash {
@@ -71,4 +79,9 @@ export class EventHash {
     copy.parts = this.parts.slice();
     return copy;
   }
+}
+
+/** Returns 16 hexadecimal digits. */
+export function hexOf(number: bigint): string {
+  return number.toString(16).padStart(16, "0");
 }

@@ -1,11 +1,11 @@
 // Games: worlds that move their own bodies.
-import { asking, responded, type RespondFunction } from "./asking.js";
-import { definitionNumbers, type WorldDefinition } from "./definition.js";
-import { Event, Events } from "./event.js";
-import type { PairFilter } from "./filter.js";
-import { type Scratch, theModule } from "./module.js";
-import { checkKeys, type Keys, requireBytes, requireNumbers, shown } from "./options.js";
-import type { MotionLimits } from "./records.js";
+import { answeringOf, answeringRecord, type RespondFunction } from "./asking.js";
+import { definitionRecord, type WorldDefinition } from "./definition.js";
+import { type Event, Events } from "./event.js";
+import { filterArguments, keptFilter, type PairFilter } from "./filter.js";
+import { type Module, theModule } from "./module.js";
+import { checkKeys, type Keys, requireBytes, requireNumbers } from "./options.js";
+import { bodyListAt, eventAt, eventListAt, gameAt, type MotionLimits } from "./records.js";
 import type { Bounces, StepPotential } from "./response.js";
 import { type BodyId, type Vec3, vector } from "./state.js";
 import { World } from "./world.js";
@@ -23,14 +23,15 @@ export interface GameOptions {
 
 const gameKeys: Keys<GameOptions> = { gravity: true, respond: true };
 
-/** The function to call, and the arguments of the module. */
-type Answering = [asked: RespondFunction | null, numbers: (scratch: Scratch) => number[]];
-
-function answeringOf(respond: GameOptions["respond"], call: string): Answering {
+/** Returns the address of a ks_game_definition, for the duration of a call, and what the game has to keep. */
+function gameRecord(module: Module, { respond, gravity = [0, 0, 0] }: GameOptions, call: string): [at: number, kept: unknown] {
   if (respond !== null && typeof respond === "object" && "masses" in respond)
     throw new TypeError(`${call}: respond must not have masses: those of the bodies count`);
-  const [responding, { restitution = 1, restingSpeed = 0, masses = [] }, other, asked] = responded(respond, call);
-  return [asked, (scratch) => [responding, restitution, restingSpeed, scratch.numbers(masses), other]];
+  const answering = answeringOf(module, respond, call, true);
+  const callback = answering.callback && module.keep(answering.callback);
+  const at = answeringRecord(module, gameAt, answering, callback?.number ?? 0);
+  module.putVector(at + gameAt.gravity, vector(gravity, "gravity", call));
+  return [at, callback ?? answering.kept];
 }
 
 /**
@@ -39,18 +40,23 @@ function answeringOf(respond: GameOptions["respond"], call: string): Answering {
  * World, but for what asks for states: motions, probes, run() and setMotionLimits().
  */
 export class GameWorld extends World {
-  /** What answers events, if a function does. */
-  #respond: RespondFunction | null;
+  /** What answers events. */
+  #answering: unknown;
 
-  constructor(definition: WorldDefinition = {}, options: GameOptions = {}, restored: number | null = null) {
+  constructor(definition: WorldDefinition = {}, options: GameOptions = {}, made: [handle: bigint, answering: unknown] | null = null) {
     const call = "GameWorld";
     checkKeys(options, gameKeys, "options", call);
-    const [asked, numbers] = answeringOf(options.respond, call);
-    const gravity = vector(options.gravity ?? [0, 0, 0], "gravity", call);
     const module = theModule();
-    super(restored ?? module.with((scratch) => module.require(module.call(
-      "game_create", scratch.numbers(definitionNumbers(definition)), scratch.numbers(gravity), ...numbers(scratch)))), "game_free");
-    this.#respond = asked;
+    const [handle, answering] = made ?? module.with(() => {
+      const [at, kept] = gameRecord(module, options, call);
+      return [module.handle("ks_game_create", definitionRecord(module, definition), at), kept];
+    });
+    super(handle);
+    this.#answering = answering;
+  }
+  /** @internal */
+  protected override get kind(): string {
+    return "GameWorld";
   }
   /**
    * Restores a game from save(), called here or in any other program, which goes on as the saved one did; its gravity is
@@ -59,27 +65,22 @@ export class GameWorld extends World {
   static override restore(snapshot: Uint8Array, pairFilter: PairFilter | null = null, options: GameOptions = {}): GameWorld {
     const call = "GameWorld.restore";
     requireBytes(snapshot, "snapshot", call);
-    if (pairFilter !== null && typeof pairFilter !== "function")
-      throw new TypeError(`${call}: pairFilter must be a function or null, but is ${shown(pairFilter)}`);
-    const [, numbers] = answeringOf(options.respond, call);
+    checkKeys(options, gameKeys, "options", call);
     const module = theModule();
-    const kept = pairFilter === null ? null : module.keepFilter(pairFilter);
-    const game = new GameWorld({}, options, module.with((scratch) => module.require(module.call(
-      "game_restore", scratch.bytes(snapshot), snapshot.length, kept?.number ?? -1, ...numbers(scratch)))));
-    game.keep(kept, null);
-    return game;
+    const filter = keptFilter(module, pairFilter, "pairFilter", call);
+    return module.with(() => {
+      const [at, kept] = gameRecord(module, options, call);
+      const handle = module.handle("ks_game_restore", module.bytesOf(snapshot), snapshot.length, at, ...filterArguments(module, filter));
+      const game = new GameWorld({}, {}, [handle, kept]);
+      game.keep(filter, null);
+      return game;
+    });
   }
   /** Returns a copy with an equal future. */
   override clone(): GameWorld {
-    const module = theModule();
-    const copy = new GameWorld({}, {}, module.require(module.call("game_clone", this.address)));
-    copy.#respond = this.#respond;
+    const copy = new GameWorld({}, {}, [theModule().handle("ks_world_clone", this.address), this.#answering]);
     copy.keep(...this.kept());
     return copy;
-  }
-  /** @internal Games have calls of their own for what moves bodies. */
-  protected override named(name: string): string {
-    return gameCalls.has(name) ? name.replace("world_", "game_") : name;
   }
 
   /**
@@ -88,55 +89,60 @@ export class GameWorld extends World {
    */
   step(dt: number): Events {
     const module = theModule();
-    module.require(this.go("game_step", dt));
-    return new Events(module.answer());
+    return module.with(() => {
+      const told = module.room(eventListAt.size);
+      module.check("ks_game_step", this.address, dt, told);
+      const size = eventAt.size * module.i32[(told + eventListAt.count) >> 2]!;
+      return new Events(module.copy(module.i32[(told + eventListAt.events) >> 2]!, size));
+    });
   }
   /** Advances to the next event, answers it and returns it, or to `until`, and returns null. */
   override advance(until: number): Event | null {
     const module = theModule();
-    const result = this.go("game_advance", until);
-    if (result < 0) throw module.error();
-    return result === 0 ? null : new Event(module.answer());
+    return this.next((event) => module.status("ks_world_advance", this.address, until, module.pointer("probe_game"), 0, event));
   }
   /** Yields the events up to `until`, each answered already, for a loop in which bodies may be changed. */
   override *events(until: number): Generator<Event, void, undefined> {
     for (let event = this.advance(until); event !== null; event = this.advance(until)) yield event;
   }
-  private go(name: string, time: number): number {
-    const module = theModule();
-    const callbacks = asking(module, null, this.#respond, this.kept()[1], () => {});
-    return module.callWith(callbacks, [this.address], name, this.address, time);
-  }
   /** Replaces what answers events; clones keep theirs. */
   setRespond(respond: GameOptions["respond"]): void {
-    const [asked, numbers] = answeringOf(respond, "setRespond");
     const module = theModule();
-    module.with((scratch) => module.require(module.call("game_set_response", this.address, ...numbers(scratch))));
-    this.#respond = asked;
+    module.with(() => {
+      const [at, kept] = gameRecord(module, respond === undefined ? {} : { respond }, "setRespond");
+      module.check("ks_game_set_response", this.address, at);
+      this.#answering = kept;
+    });
   }
 
   /** The bodies that can move, disabled ones too: the last one takes the place of a removed one. Cost of each: a copy. */
   get ids(): Float64Array {
-    const module = theModule();
-    module.call("game_ids", this.address);
-    return module.answer();
+    return this.listed((module, at, count) => module.idsAt(module.i32[(at + bodyListAt.ids) >> 2]!, count));
   }
   /** Three numbers for each body, in the order of ids: where it is now, on periodic axes in the box. */
   get positions(): Float64Array {
-    return this.numbersOf("game_positions");
+    return this.listed((module, at, count) => module.numbersAt(module.i32[(at + bodyListAt.positions) >> 2]!, 3 * count));
   }
   /** Three numbers for each body, in the order of ids: its velocity now. */
   get velocities(): Float64Array {
-    return this.numbersOf("game_velocities");
+    return this.listed((module, at, count) => module.numbersAt(module.i32[(at + bodyListAt.velocities) >> 2]!, 3 * count));
   }
-  private numbersOf(name: string): Float64Array {
+  private listed<T>(read: (module: Module, list: number, count: number) => T): T {
     const module = theModule();
-    const address = module.call(name, this.address);
-    return module.numbersAt(address, 3 * module.call("game_count", this.address)).slice();
+    return module.with(() => {
+      const at = module.room(bodyListAt.size);
+      module.check("ks_game_bodies", this.address, at);
+      return read(module, at, module.i32[(at + bodyListAt.count) >> 2]!);
+    });
   }
   /** Returns the place of a body in these arrays, or -1. */
   indexOf(body: BodyId): number {
-    return theModule().call("game_index_of", this.address, body);
+    const module = theModule();
+    return module.with(() => {
+      const at = module.room(8);
+      const status = module.call("ks_game_index_of", this.address, module.id(body, "indexOf"), at);
+      return status === 0 ? module.i32[at >> 2]! : -1;
+    });
   }
 
   /**
@@ -146,29 +152,30 @@ export class GameWorld extends World {
   setVelocities(velocities: ArrayLike<number>): void {
     const call = "setVelocities";
     requireNumbers(velocities, "velocities", call);
-    const count = velocities.length / 3;
+    const count = this.listed((_module, _at, bodies) => bodies);
+    if (velocities.length !== 3 * count)
+      throw new RangeError(`${call}: velocities must have three numbers for each of ${count} bodies, but has ${velocities.length}`);
     const module = theModule();
-    if (count !== module.call("game_count", this.address))
-      throw new RangeError(`${call}: velocities must have three numbers for each of ${this.ids.length} bodies, but has ` +
-                           `${velocities.length}`);
-    module.with((scratch) =>
-      module.require(module.call("game_set_velocity_all", this.address, count, 0, scratch.numbers(velocities))));
+    module.with(() => module.check("ks_game_set_velocities", this.address, module.numbers(velocities), count));
   }
   /** Sets the acceleration of a body besides the gravity (length / time^2): engines, wind. */
   setAcceleration(body: BodyId, acceleration: Vec3): void {
-    this.change("game_set_acceleration", body, vector(acceleration, "acceleration", "setAcceleration"));
+    this.changeBy("ks_game_set_acceleration", body, vector(acceleration, "acceleration", "setAcceleration"));
   }
   /** Acceleration of all bodies (length / time^2). */
   get gravity(): Float64Array {
     const module = theModule();
-    module.call("game_gravity", this.address);
-    return module.answer();
+    return module.with(() => {
+      const at = module.room(24);
+      module.check("ks_game_gravity", this.address, at);
+      return module.numbersAt(at, 3);
+    });
   }
   /** Sets the gravity of the game; wakes all that sleep. */
   setGravity(gravity: Vec3): void {
     const numbers = vector(gravity, "gravity", "setGravity");
     const module = theModule();
-    module.with((scratch) => module.require(module.call("game_set_gravity", this.address, scratch.numbers(numbers))));
+    module.with(() => module.check("ks_game_set_gravity", this.address, module.numbers(numbers)));
   }
 
   /** Throws: a game takes no motion. */
@@ -184,11 +191,6 @@ export class GameWorld extends World {
     return refuse("setMotionLimits");
   }
 }
-
-const gameCalls: ReadonlySet<string> = new Set([
-  "world_add_all", "world_add_moving_shape", "world_add_rigid_body", "world_remove", "world_set_velocity",
-  "world_set_velocity_all", "world_teleport", "world_disable", "world_enable", "world_sleep", "world_save",
-]);
 
 function refuse(call: string): never {
   throw new TypeError(`${call}: a GameWorld moves its bodies itself; step(), advance() and events() let time pass`);

@@ -1,7 +1,7 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-// The WebAssembly module: its memory, its functions, and its errors as exceptions.
-import type { PairFilter } from "./filter.js";
-import { checkKeys, type Keys, refusePromise, shown } from "./options.js";
+// The WebAssembly module: the C library, its functions, and its errors as exceptions.
+import { callOf, isNumeric, Memory } from "./memory.js";
+import { checkKeys, type Keys, shown } from "./options.js";
 import type { ErrorCode } from "./records.js";
 
 /** An error of the library. Its message names the call, the argument, the body, and the wrong value. */
@@ -19,107 +19,53 @@ export class KinesphereError extends Error {
   }
 }
 
-/** The exports of the module. Addresses and counts are numbers; see the folder browser/module. */
-type Exports = { memory: WebAssembly.Memory } & Record<string, (...values: number[]) => number>;
+/** What a function of the module takes: numbers, addresses, and handles of objects, which have 64 bits. */
+export type Value = number | bigint;
+type Exports = { memory: WebAssembly.Memory } & Record<string, (...values: Value[]) => number>;
 
-/** The callbacks of the module during a call. */
-interface Callbacks {
-  probe(count: number, ids: number, time: number, states: number): void;
-  respond(event: number, response: number): void;
-  stop(event: number): void;
-  rotate(count: number, ids: number, time: number, rotations: number): void;
-  poll(count: number, tracks: number, time: number, reports: number): void;
-}
+/** A function of JavaScript that the module calls with numbers and addresses. */
+export type Callback = (...values: number[]) => number | void;
+/** A function that the module has for longer than a call, by its number. Whatever needs it keeps this object. */
+export interface Kept { readonly number: number }
 
-/** A pair filter in the module. The worlds that have it keep this object. */
-export interface KeptFilter { readonly number: number }
+// Statuses of kinesphere.h that are no errors of callers.
+const inUse = 3, bufferTooSmall = 6;
 
-/** Memory of the module for the duration of a call. */
-export class Scratch {
-  private readonly taken: number[] = [];
-  constructor(private readonly module: Module) {}
-  /** A typed array would take null, as the second body of a wall event is, for 0; undefined becomes NaN. */
-  numbers(values: ArrayLike<number>): number {
-    if (Array.isArray(values))
-      for (const value of values)
-        if (!isNumeric(value)) throw new TypeError(`kinesphere: arrays must hold numbers, but one holds ${shown(value)}`);
-    const address = this.take(8 * values.length);
-    this.module.numbersAt(address, values.length).set(values);
-    return address;
-  }
-  bytes(values: Uint8Array): number {
-    const address = this.take(values.length);
-    new Uint8Array(this.module.memory.buffer, address, values.length).set(values);
-    return address;
-  }
-  addresses(values: readonly number[]): number {
-    return this.bytes(new Uint8Array(Uint32Array.from(values).buffer));
-  }
-  room(count: number): number {
-    return this.take(8 * count);
-  }
-  private take(size: number): number {
-    const address = this.module.call("allocate", Math.max(size, 8));
-    if (address === 0) throw new RangeError(`kinesphere: there is no memory for ${size} bytes`);
-    this.taken.push(address);
-    return address;
-  }
-  release(): void {
-    for (const address of this.taken) this.module.call("release", address);
-  }
-}
-
-/** Returns the name of the call that uses this export: setVelocity for world_set_velocity. */
-function callOf(name: string): string {
-  const [, ...words] = name.split("_");
-  return words.map((word, k) => (k === 0 ? word : word[0]!.toUpperCase() + word.slice(1))).join("");
-}
-
-/** Returns true for what the library can judge: a number, or undefined, which is NaN for it. */
-function isNumeric(value: unknown): boolean {
-  return typeof value === "number" || value === undefined;
-}
-
-export class Module {
-  /** @internal */
-  readonly memory: WebAssembly.Memory;
+export class Module extends Memory {
   private readonly exports: Exports;
   private readonly decoder = new TextDecoder();
-  /** Running calls, the innermost last: their callbacks and the addresses of their objects. */
-  private readonly asking: { callbacks: Partial<Callbacks>; addresses: readonly number[] }[] = [];
+  /** Callbacks by number, the argument `user` of C. */
+  private readonly callbacks = new Map<number, Callback>();
+  private readonly forgottenCallbacks = new FinalizationRegistry<number>((number) => this.callbacks.delete(number));
+  private readonly pointers = new Map<string, number>();
+  private lastCallback = 0;
   private thrown: { value: unknown } | null = null;
-  /** Pair filters by number: any call of a world may ask them. */
-  private readonly filters = new Map<number, PairFilter>();
-  private readonly forgottenFilters = new FinalizationRegistry<number>((number) => this.filters.delete(number));
-  private lastFilter = 0;
-  private filterThrown: { value: unknown } | null = null;
-  private filtering = 0;
+  /** Motions and maps of running calls, which may not be freed. */
+  private readonly used: (number | bigint)[] = [];
+  /** Memory for the duration of calls, from `top` on; what does not fit is taken from the module. */
+  private readonly arena: number;
+  private top: number;
+  private readonly taken: number[] = [];
+  /** Where functions write one number. */
+  private readonly result: number;
+  private readonly capacities = new Map<string, number>();
   private written = "";
-  /** The last called export that is no part of reading an error. */
-  private called = "";
-
-  readonly simd: boolean;
 
   /** @internal */
-  constructor(compiled: WebAssembly.Module, simd: boolean) {
-    this.simd = simd;
-    // Returns whether the callback did not throw: an exception does not pass through the module, and is rethrown behind
-    // it.
-    const asked = <K extends keyof Callbacks>(name: K) => (...values: Parameters<Callbacks[K]>): number => {
+  constructor(compiled: WebAssembly.Module, readonly simd: boolean) {
+    super();
+    // An exception does not pass through the module, and is rethrown behind it.
+    const asked = (...values: number[]): number => {
       try {
-        (this.asking.at(-1)!.callbacks[name] as (...values: unknown[]) => void)(...values);
-        return 1;
+        return this.callbacks.get(values.at(-1)!)!(...values) ?? 0;
       } catch (value) {
         this.thrown ??= { value };
-        return 0;
+        return 1;
       }
     };
     const instance = new WebAssembly.Instance(compiled, {
-      kinesphere: {
-        probe: asked("probe"), respond: asked("respond"), stop: asked("stop"), rotate: asked("rotate"), poll: asked("poll"),
-        filter: (number: number, first: number, second: number) => this.mayTouch(number, first, second) ? 1 : 0,
-      },
-      env: { emscripten_notify_memory_growth: () => {} },
+      kinesphere: { probe: asked, rotate: asked, filter: asked, respond: asked, sink: asked, poll: asked },
+      env: { emscripten_notify_memory_growth: () => this.see(this.exports.memory.buffer) },
       wasi_snapshot_preview1: {
         clock_time_get: () => 0,
         fd_close: () => 0,
@@ -132,133 +78,215 @@ export class Module {
       },
     });
     this.exports = instance.exports as Exports;
-    this.memory = this.exports.memory;
+    this.see(this.exports.memory.buffer);
     this.exports["_initialize"]!();
+    this.arena = this.top = this.exports["malloc"]!(arenaSize);
+    this.result = this.room(8);
   }
 
-  /** The module would take null, as the second body of a wall event is, for body 0; undefined becomes NaN. */
-  call(name: string, ...values: number[]): number {
+  /** Calls a function and returns its result. The caller throws what a callback threw (rethrow). */
+  status(name: string, ...values: Value[]): number {
     for (const value of values)
-      if (!isNumeric(value)) throw new TypeError(`${callOf(name)}: arguments must be numbers, but one is ${shown(value)}`);
-    if (!name.startsWith("error_") && name !== "release") this.called = name;
-    const result = this.exports[name]!(...values);
-    // World.advance() has to keep its event first.
-    if (name !== "world_advance" && !name.startsWith("answer_")) this.rethrowOfFilter();
+      if (!isNumeric(value) && typeof value !== "bigint")
+        throw new TypeError(`${callOf(name)}: arguments must be numbers, but one is ${shown(value)}`);
+    return this.exports[name]!(...values);
+  }
+  /** Does the same, and throws what a callback threw. */
+  call(name: string, ...values: Value[]): number {
+    const result = this.status(name, ...values);
+    this.rethrow();
     return result;
   }
+  /** Calls a function that returns a status. Throws its error. */
+  check(name: string, ...values: Value[]): void {
+    const status = this.call(name, ...values);
+    if (status) throw this.error(status, name);
+  }
+  /**
+   * Calls a function whose last three arguments are an array, its capacity and the number of elements of this size.
+   * Returns the address of the array and this number.
+   */
+  fill(size: number, name: string, ...values: Value[]): [address: number, count: number] {
+    for (let capacity = this.capacities.get(name) ?? 64; ;) {
+      const count = this.room(8), array = this.room(capacity * size);
+      const status = this.call(name, ...values, array, capacity, count);
+      if (status === 0) return [array, this.i32[count >> 2]!];
+      if (status !== bufferTooSmall) throw this.error(status, name);
+      capacity = Math.ceil(1.25 * this.i32[count >> 2]!);
+      this.capacities.set(name, capacity);
+    }
+  }
+  /** Returns a copy of the bytes that such a function gives. */
+  filledBytes(name: string, ...values: Value[]): Uint8Array {
+    return this.with(() => {
+      const [address, count] = this.fill(1, name, ...values);
+      return this.bytes.slice(address, address + count);
+    });
+  }
+  /** Calls a function that writes one number, and returns it. */
+  number(name: string, ...values: Value[]): number {
+    this.check(name, ...values, this.result);
+    return this.f64[this.result >> 3]!;
+  }
+  /** Does the same for a number of 32 bits: a count, a flag, an address. */
+  word(name: string, ...values: Value[]): number {
+    this.check(name, ...values, this.result);
+    return this.i32[this.result >> 2]!;
+  }
+  /** Does the same for one of 64 bits, such as a handle. */
+  handle(name: string, ...values: Value[]): bigint {
+    this.check(name, ...values, this.result);
+    return this.u64[this.result >> 3]!;
+  }
+  /** Calls a function that answers with numbers, and returns a copy of them. */
+  answer(name: string, ...values: Value[]): Float64Array {
+    this.check(name, ...values);
+    return this.numbersAt(this.exports["answer_numbers"]!(), this.exports["answer_count"]!());
+  }
 
-  /** Keeps a pair filter until the returned object is forgotten, and gives it a number. */
-  keepFilter(filter: PairFilter): KeptFilter {
-    const kept = { number: this.lastFilter++ };
-    this.filters.set(kept.number, filter);
-    this.forgottenFilters.register(kept, kept.number);
+  /** Returns the address of the function of this name in browser/module/callbacks.cpp. */
+  pointer(name: string): number {
+    const known = this.pointers.get(name);
+    if (known !== undefined) return known;
+    const address = this.exports[`callback_${name}`]!();
+    this.pointers.set(name, address);
+    return address;
+  }
+  /** Gives a callback a number until the returned object is forgotten. */
+  keep(callback: Callback): Kept {
+    const kept = { number: ++this.lastCallback };
+    this.callbacks.set(kept.number, callback);
+    this.forgottenCallbacks.register(kept, kept.number);
     return kept;
   }
-  /** True if a pair filter threw during the last call, which then has to rethrow. */
-  get filterHasThrown(): boolean {
-    return this.filterThrown !== null;
-  }
-  /** Throws what a pair filter threw during the last call. */
-  rethrowOfFilter(): void {
-    if (this.filterThrown === null) return;
-    const { value } = this.filterThrown;
-    this.filterThrown = null;
-    throw value;
-  }
-  private mayTouch(number: number, first: number, second: number): boolean {
-    if (this.filterThrown !== null) return true;
-    ++this.filtering;
+  /** Calls action(number of the callback), during which objects at these addresses may not be freed. */
+  asking<T>(callback: Callback | null, addresses: readonly Value[], action: (user: number) => T): T {
+    const user = callback === null ? 0 : ++this.lastCallback;
+    if (callback !== null) this.callbacks.set(user, callback);
+    const before = this.used.length;
+    this.used.push(...addresses);
     try {
-      const may: unknown = this.filters.get(number)!(first, second);
-      refusePromise(may, "pair filter");
-      if (typeof may !== "boolean") throw new TypeError(`pair filter: the result must be a boolean, but is ${shown(may)}`);
-      return may;
-    } catch (value) {
-      this.filterThrown = { value };
-      return true;
+      return action(user);
     } finally {
-      --this.filtering;
+      this.callbacks.delete(user);
+      this.used.length = before;
     }
   }
-
-  /** Makes a call with callbacks, which may not free the objects at these addresses. Rethrows what a callback threw. */
-  callWith(callbacks: Partial<Callbacks>, addresses: readonly number[], name: string, ...values: number[]): number {
-    this.asking.push({ callbacks, addresses });
-    const before = this.thrown;
+  /** True if a callback threw during the last call, which then has to rethrow. */
+  get hasThrown(): boolean {
+    return this.thrown !== null;
+  }
+  /** Returns what a callback threw, once. */
+  takeThrown(): { value: unknown } | null {
+    const { thrown } = this;
     this.thrown = null;
+    return thrown;
+  }
+  /** Throws what a callback threw. */
+  rethrow(): void {
+    const thrown = this.thrown && this.takeThrown();
+    if (thrown) throw thrown.value;
+  }
+
+  /** Returns the error of a failed call of this function. */
+  error(status: number, name: string): Error {
+    if (status === inUse) return new Error("kinesphere: an object cannot be freed while it asks for states or answers");
+    return this.with(() => {
+      const id = this.room(16);
+      this.exports["ks_last_error_body"]!(id);
+      const body = this.at(id).id(0);
+      return new KinesphereError(
+        this.text(this.exports["ks_last_error_message"]!()).replace(/^ks_\w+(?=:)/, callOf(name)),
+        this.text(this.exports["ks_status_name"]!(status)) as ErrorCode,
+        this.text(this.exports["ks_last_error_argument"]!()),
+        body < 0 ? null : body,
+      );
+    });
+  }
+  /** Calls a function that ends an object. */
+  free(name: string, address: Value): void {
+    if (this.used.includes(address)) throw this.error(inUse, name);
+    const status = this.call(name, address);
+    if (status) throw this.error(status, name);
+  }
+
+  /** Calls action(), and gives back the memory that it takes. */
+  with<T>(action: () => T): T {
+    const top = this.top, count = this.taken.length;
     try {
-      const result = this.call(name, ...values);
-      const thrown = this.thrown as { value: unknown } | null;
-      if (thrown !== null) throw thrown.value;
-      return result;
+      return action();
     } finally {
-      this.asking.pop();
-      this.thrown = before;
+      this.top = top;
+      while (this.taken.length > count) this.exports["free"]!(this.taken.pop()!);
     }
   }
-
-  /** True if the object is, or may be, in the middle of a call. */
-  isInUse(address: number): boolean {
-    return this.filtering > 0 || this.asking.some(({ addresses }) => addresses.includes(address));
-  }
-
-  /** Returns the error of the last failed call. World::change() of C++ is several functions here. */
-  error(): KinesphereError {
-    const body = this.call("error_body");
-    return new KinesphereError(
-      this.text(this.call("error_message")).replace(/^change(?=:)/, callOf(this.called)),
-      this.text(this.call("error_code")) as ErrorCode,
-      this.text(this.call("error_argument")),
-      body < 0 ? null : body,
-    );
-  }
-  /** Throws the error of a call that returned 0 or false. */
-  require(result: number): number {
-    if (result === 0) throw this.error();
-    return result;
-  }
-
-  with<T>(action: (scratch: Scratch) => T): T {
-    const scratch = new Scratch(this);
-    try {
-      return action(scratch);
-    } finally {
-      scratch.release();
+  /** Returns the address of memory until the action of with() ends. */
+  room(size: number): number {
+    const at = this.top, end = at + ((size + 7) & ~7);
+    if (end <= this.arena + arenaSize) {
+      this.top = end;
+      return at;
     }
+    const address = this.exports["malloc"]!(Math.max(size, 8));
+    if (address === 0) throw new RangeError(`kinesphere: there is no memory for ${size} bytes`);
+    this.taken.push(address);
+    return address;
+  }
+  /** Returns a record of zeros, with its struct_size. */
+  record({ size }: { readonly size: number }): number {
+    const address = this.room(size);
+    this.bytes.fill(0, address, address + size);
+    this.i32[address >> 2] = size;
+    return address;
+  }
+  /** A typed array would take null, as the second body of a wall event is, for 0; undefined becomes NaN. */
+  numbers(values: ArrayLike<number>): number {
+    if (Array.isArray(values))
+      for (const value of values)
+        if (!isNumeric(value)) throw new TypeError(`kinesphere: arrays must hold numbers, but one holds ${shown(value)}`);
+    const address = this.room(8 * values.length);
+    this.f64.set(values, address >> 3);
+    return address;
+  }
+  bytesOf(values: Uint8Array): number {
+    const address = this.room(values.length);
+    this.bytes.set(values, address);
+    return address;
+  }
+  words(values: ArrayLike<number>): number {
+    const address = this.room(4 * values.length);
+    this.i32.set(values, address >> 2);
+    return address;
+  }
+  id(body: number, call: string): number {
+    const address = this.room(16);
+    this.putId(address, body, call);
+    return address;
+  }
+  ids(bodies: ArrayLike<number>, call: string): number {
+    const address = this.room(12 * bodies.length);
+    for (let k = 0; k < bodies.length; ++k) this.putId(address + 12 * k, bodies[k]!, call);
+    return address;
   }
 
-  /** Returns a view that is valid until the module is called again. */
-  numbersAt(address: number, count: number): Float64Array {
-    return new Float64Array(this.memory.buffer, address, count);
-  }
-  /** Returns a copy of the last call's answer. */
-  answer(): Float64Array {
-    return this.numbersAt(this.call("answer_numbers"), this.call("answer_count")).slice();
-  }
-  bytes(): Uint8Array {
-    return new Uint8Array(this.memory.buffer, this.call("bytes"), this.call("byte_count")).slice();
-  }
   text(address: number): string {
-    const bytes = new Uint8Array(this.memory.buffer, address);
-    return this.decoder.decode(bytes.subarray(0, bytes.indexOf(0)));
-  }
-  textOfBytes(): string {
-    return this.decoder.decode(this.bytes());
+    return this.decoder.decode(this.bytes.subarray(address, this.bytes.indexOf(0, address)));
   }
 
   private write(pieces: number, count: number, size: number): number {
-    const view = new DataView(this.memory.buffer);
     let sum = 0;
-    for (let k = 0; k < count; ++k) {
-      const address = view.getUint32(pieces + 8 * k, true);
-      const length = view.getUint32(pieces + 8 * k + 4, true);
-      this.written += this.decoder.decode(new Uint8Array(this.memory.buffer, address, length));
+    for (let at = pieces >> 2; at < (pieces >> 2) + 2 * count; at += 2) {
+      const address = this.i32[at]!, length = this.i32[at + 1]!;
+      this.written += this.decoder.decode(this.bytes.subarray(address, address + length));
       sum += length;
     }
-    view.setUint32(size, sum, true);
+    this.putWord(size, sum);
     return 0;
   }
 }
+
+/** Size of the memory that calls take, in bytes. */
+const arenaSize = 2 ** 18;
 
 let loaded: Module | null = null;
 
@@ -319,7 +347,7 @@ export async function load(options: LoadOptions = {}): Promise<void> {
 /** Returns the library's version, such as "0.3.0". */
 export function version(): string {
   const module = theModule();
-  return module.text(module.call("library_version"));
+  return module.text(module.call("ks_version"));
 }
 
 /** Returns true if the build with SIMD was loaded. Its results are equal. */
@@ -328,40 +356,49 @@ export function usesSimd(): boolean {
 }
 
 /** Frees objects without a call of free() when they are collected. */
-const forgotten = new FinalizationRegistry<{ free: string; address: number }>(({ free, address }) => {
+const forgotten = new FinalizationRegistry<{ free: string; address: Value }>(({ free, address }) => {
   loaded?.call(free, address);
 });
 
+/** Memory of the module that stays, with the object that it belongs to, until this is forgotten. */
+export class Block {
+  readonly address: number;
+  constructor(size: number, free = "", object: Value = 0) {
+    this.address = theModule().call("malloc", size);
+    forgotten.register(this, { free: "free", address: this.address });
+    if (free !== "") forgotten.register(this, { free, address: object });
+  }
+}
+
 /** An object in the module's memory. It is freed by free(), by `using`, or when it is collected. */
 export abstract class Owned {
-  #address: number;
+  #address: Value;
   readonly #free: string;
-  protected constructor(address: number, free: string) {
+  protected constructor(address: Value, free: string) {
     this.#address = address;
     this.#free = free;
-    if (address !== 0) forgotten.register(this, { free, address }, this);
+    if (free !== "") forgotten.register(this, { free, address }, this);
   }
-  /** @internal */
-  get address(): number {
+  /** @internal Its address or its handle. */
+  get address(): Value {
     if (this.#address === 0) throw new Error(`kinesphere: the ${this.constructor.name} has been freed`);
     return this.#address;
   }
-  /**
-   * @internal Returns the address of an argument, which must be an object of this kind: the module would take the
-   * address of any other for one.
-   */
-  static addressOf(object: Owned, kind: "World" | "Motion", what: string, call: string): number {
-    if (!(object instanceof Owned) || object.#free !== `${kind.toLowerCase()}_free`)
+  /** @internal Returns the address of an argument, which must be an object of this class. */
+  static addressOf(object: Owned, kind: "World" | "Motion", what: string, call: string): Value {
+    if (!(object instanceof Owned) || object.kind !== kind)
       throw new TypeError(`${call}: ${what} must be a ${kind}, but is ${shown(object)}`);
     return object.address;
+  }
+  /** @internal */
+  protected get kind(): string {
+    return "";
   }
   /** Frees its memory. The object must not be used afterwards. */
   free(): void {
     if (this.#address === 0) return;
-    if (theModule().isInUse(this.#address))
-      throw new Error("kinesphere: an object cannot be freed while it asks for states or answers");
+    if (this.#free !== "") theModule().free(this.#free, this.#address);
     forgotten.unregister(this);
-    theModule().call(this.#free, this.#address);
     this.#address = 0;
   }
   /** Releases the memory at the end of a block that declares it with `using`. */

@@ -1,15 +1,17 @@
 // Monitor: certain statements about the separation of tracks that report irregularly, and predictions.
-import { type Module, Owned, theModule } from "./module.js";
+import type { Place } from "./memory.js";
+import { type Callback, type Module, Owned, theModule, type Value } from "./module.js";
 import {
-  type FullMonitorDefinition, type MonitorDefinition, monitorDefinitionOf, monitorNumbers,
+  type FullMonitorDefinition, type MonitorDefinition, monitorDefinitionOf, monitorRecord,
 } from "./monitor_definition.js";
 import { MonitorEvent, MonitorEvents } from "./monitor_event.js";
 import { refusePromise, requireBytes, whole } from "./options.js";
 import {
-  type OpenPair, openPairOf, openPairSize, type PairAnswer, pairAnswerOf, type PredictedPair, predictedPairOf, predictedPairSize,
-  type ReportRequest, reportRequestOf, reportRequestSize, type TrackId,
+  monitorAt, monitorEventAt, type OpenPair, openPairAt, openPairOf, type PairAnswer, pairAnswerAt, pairAnswerOf,
+  type PredictedPair, predictedPairAt, predictedPairOf, reportAt, type ReportRequest, reportRequestAt, reportRequestOf,
+  type TrackId,
 } from "./records.js";
-import { batchNumbers, putReport, type ReportBatch, reportNumbers, trackId, type TrackReport } from "./report.js";
+import { batchRecords, putReport, type ReportBatch, trackId, type TrackReport } from "./report.js";
 
 /** Counts of the work that a monitor has done since it was created. */
 export interface MonitorCounters {
@@ -47,8 +49,6 @@ export interface TrackView {
  */
 export type Poll = (tracks: Float64Array, time: number) => ArrayLike<TrackReport | null | undefined>;
 
-const existing = Symbol("existing");
-
 /**
  * Tracks, their reports and the verdicts about their pairs.
  *
@@ -64,17 +64,16 @@ const existing = Symbol("existing");
 export class Monitor extends Owned {
   /** Throws KinesphereError for an invalid definition. */
   constructor(definition: MonitorDefinition);
-  /** @internal */
-  constructor(definition: typeof existing, address: number);
-  constructor(definition: MonitorDefinition | typeof existing, address = 0) {
-    super(definition === existing ? address : create(definition as MonitorDefinition), "monitor_free");
+  /** @internal The object of this handle. */
+  constructor(handle: bigint);
+  constructor(definition: MonitorDefinition | bigint) {
+    super(typeof definition === "bigint" ? definition : create(definition), "ks_monitor_destroy");
   }
   /** Restores a monitor from save(), called here or in any other program; it goes on identically. */
   static restore(snapshot: Uint8Array): Monitor {
     requireBytes(snapshot, "snapshot", "Monitor.restore");
     const module = theModule();
-    return new Monitor(existing, module.with((scratch) =>
-      module.require(module.call("monitor_restore", scratch.bytes(snapshot), snapshot.length))));
+    return new Monitor(module.with(() => module.handle("ks_monitor_restore", module.bytesOf(snapshot), snapshot.length)));
   }
 
   /**
@@ -82,19 +81,22 @@ export class Monitor extends Owned {
    * it anew. The next advance() returns the events that follow.
    */
   report(track: TrackId, report: TrackReport): void {
-    const numbers = new Float64Array(reportNumbers);
-    numbers[0] = trackId(track, "track", "report");
-    putReport(numbers, 0, report, "report");
-    this.accept(numbers);
+    const module = theModule();
+    module.with(() => {
+      const tracks = module.room(8), at = module.record(reportAt);
+      module.putWhole(tracks, trackId(track, "track", "report"));
+      putReport(module, at, report, "report");
+      module.check("ks_monitor_report", this.address, tracks, at, 1);
+    });
   }
   /** Accepts the reports one after the other or, after an error, none. */
   reportAll(reports: ReportBatch): void {
-    this.accept(batchNumbers(reports, "reportAll"));
+    const module = theModule();
+    module.with(() => module.check("ks_monitor_report", this.address, ...batchRecords(module, reports, "reportAll")));
   }
   /** Removes a track; the next advance() returns its event "dropped". */
   remove(track: TrackId): void {
-    const module = theModule();
-    module.require(module.call("monitor_remove", this.address, trackId(track, "track", "remove")));
+    theModule().check("ks_monitor_remove", this.address, BigInt(trackId(track, "track", "remove")));
   }
 
   /**
@@ -104,11 +106,18 @@ export class Monitor extends Owned {
   advance(until: number, poll?: Poll): MonitorEvent | null {
     const module = theModule();
     if (poll !== undefined && typeof poll !== "function") throw new TypeError("advance: poll must be a function");
-    const callbacks = poll === undefined ? {} : polling(module, poll);
-    const result =
-      module.callWith(callbacks, [this.address], "monitor_advance", this.address, until, poll === undefined ? 0 : 1);
-    if (result < 0) throw module.error();
-    return result === 0 ? null : new MonitorEvent(module.answer());
+    const pointer = poll === undefined ? 0 : module.pointer("poll");
+    return module.asking(poll === undefined ? null : polling(module, poll), [], (user) => this.next(until, pointer, user));
+  }
+  private next(until: number, poll: number, user: number): MonitorEvent | null {
+    const module = theModule();
+    return module.with(() => {
+      const at = module.record(monitorEventAt);
+      module.check("ks_monitor_advance", this.address, until, poll, user, at);
+      if (module.at(at).word(monitorEventAt.kind) === 0) return null;
+      const { numbers, words } = module.copy(at, monitorEventAt.size);
+      return new MonitorEvent(numbers, words);
+    });
   }
   /** Yields the events up to `until`. After an early exit the monitor stands at the last event. */
   *events(until: number, poll?: Poll): Generator<MonitorEvent, void, undefined> {
@@ -116,19 +125,22 @@ export class Monitor extends Owned {
   }
   /** Advances to `until` and returns all events: the fastest way. */
   run(until: number): MonitorEvents {
-    const module = theModule();
-    module.require(module.call("monitor_run", this.address, until));
-    return new MonitorEvents(module.answer());
+    return new MonitorEvents([...this.events(until)]);
   }
 
   get time(): number {
-    return theModule().call("monitor_time", this.address);
+    return theModule().number("ks_monitor_time", this.address);
   }
   get definition(): FullMonitorDefinition {
-    return monitorDefinitionOf(this.answered("monitor_definition"));
+    const module = theModule();
+    return module.with(() => {
+      const at = module.record(monitorAt);
+      module.check("monitor_definition", this.address, at);
+      return monitorDefinitionOf(module, at);
+    });
   }
   get counters(): MonitorCounters {
-    const numbers = this.answered("monitor_counters");
+    const numbers = theModule().answer("monitor_counters", this.address);
     return {
       reports: numbers[0]!,
       late: numbers[1]!,
@@ -142,21 +154,20 @@ export class Monitor extends Owned {
   }
   /** Returns the ids of all tracks, in ascending order. */
   tracks(): Float64Array {
-    return this.answered("monitor_tracks");
+    return Float64Array.from(this.rows("ks_monitor_tracks", 8, (row) => row.whole(0)));
   }
   /** Number of tracks. */
   get size(): number {
-    return theModule().call("monitor_size", this.address);
+    return theModule().answer("monitor_counters", this.address)[8]!;
   }
   /** True if the monitor knows the track. */
   contains(track: TrackId): boolean {
-    return Number.isSafeInteger(track) && track >= 0 && theModule().call("monitor_contains", this.address, track) !== 0;
+    return Number.isSafeInteger(track) && track >= 0 &&
+           theModule().word("monitor_contains", this.address, BigInt(track)) !== 0;
   }
   /** What is known of a track now. */
   track(track: TrackId): TrackView {
-    const module = theModule();
-    module.require(module.call("monitor_track", this.address, trackId(track, "track", "track")));
-    const numbers = module.answer();
+    const numbers = theModule().answer("monitor_track", this.address, BigInt(trackId(track, "track", "track")));
     const places = Array.from({ length: (numbers.length - 3) / 9 }, (_, k): TrackPlace => {
       const place = numbers.subarray(3 + 9 * k, 12 + 9 * k);
       return {
@@ -172,80 +183,72 @@ export class Monitor extends Owned {
   answer(first: TrackId, second: TrackId, level = 0): PairAnswer {
     const module = theModule();
     const call = "answer";
-    module.require(module.call("monitor_answer", this.address, trackId(first, "first", call),
-                               trackId(second, "second", call), whole(level, 2 ** 32 - 1, "level", call)));
-    return pairAnswerOf(module.answer());
+    return module.with(() => {
+      const at = module.record(pairAnswerAt);
+      module.check("ks_monitor_answer", this.address, BigInt(trackId(first, "first", call)),
+                   BigInt(trackId(second, "second", call)), whole(level, 2 ** 32 - 1, "level", call), at);
+      return pairAnswerOf(module.at(at));
+    });
   }
   /** Returns the pairs that are not certainly apart, in the order of their ids and levels. */
   openPairs(): OpenPair[] {
-    return this.rows("monitor_open_pairs", openPairSize, openPairOf);
+    return this.rows("ks_monitor_open_pairs", openPairAt.size, openPairOf);
   }
   /** Returns the pairs that are predicted to come within a separation, in the order of their ids and levels. */
   predictedPairs(): PredictedPair[] {
-    return this.rows("monitor_predicted_pairs", predictedPairSize, predictedPairOf);
+    return this.rows("ks_monitor_predicted_pairs", predictedPairAt.size, predictedPairOf);
   }
   /** Number of pairs that are not certainly apart or were not at some time in the current window. */
   get openPairCount(): number {
-    return theModule().call("monitor_open_pair_count", this.address);
+    return theModule().answer("monitor_counters", this.address)[9]!;
   }
   /** Returns tracks whose removal reduces openPairCount to at most `pairs`, those with most open pairs first. */
   crowd(pairs: number): Float64Array {
-    return this.answered("monitor_crowd", whole(pairs, 2 ** 32 - 1, "pairs", "crowd"));
+    return theModule().answer("monitor_crowd", this.address, whole(pairs, 2 ** 32 - 1, "pairs", "crowd"));
   }
   /**
    * Returns the reports that are needed by `until` so that no verdict turns undecided before, in the order of their times.
    * Pairs are known only up to the end of the current window.
    */
   needed(until: number): ReportRequest[] {
-    return this.rows("monitor_needed", reportRequestSize, reportRequestOf, until);
+    return this.rows("ks_monitor_needed", reportRequestAt.size, reportRequestOf, until);
   }
   /** Returns the whole monitor, for Monitor.restore() in any process, including native ones. */
   save(): Uint8Array {
-    const module = theModule();
-    module.call("monitor_save", this.address);
-    return module.bytes();
+    return theModule().filledBytes("ks_monitor_save", this.address);
   }
 
-  private accept(numbers: Float64Array): void {
+  private rows<Row>(name: string, size: number, of: (row: Place) => Row, ...values: Value[]): Row[] {
     const module = theModule();
-    module.with((scratch) => module.require(
-      module.call("monitor_report", this.address, numbers.length / reportNumbers, scratch.numbers(numbers))));
-  }
-  private answered(name: string, ...values: number[]): Float64Array {
-    const module = theModule();
-    module.call(name, this.address, ...values);
-    return module.answer();
-  }
-  private rows<Row>(name: string, size: number, of: (row: Float64Array) => Row, ...values: number[]): Row[] {
-    const numbers = this.answered(name, ...values);
-    return Array.from({ length: numbers.length / size }, (_, k) => of(numbers.subarray(size * k, size * (k + 1))));
+    return module.with(() => {
+      const [address, count] = module.fill(size, name, this.address, ...values);
+      return Array.from({ length: count }, (_, k) => of(module.at(address + size * k)));
+    });
   }
 }
 
-function create(definition: MonitorDefinition): number {
+function create(definition: MonitorDefinition): bigint {
   const module = theModule();
-  return module.with((scratch) =>
-    module.require(module.call("monitor_create", scratch.numbers(monitorNumbers(definition)))));
+  return module.with(() => module.handle("ks_monitor_create", monitorRecord(module, definition)));
 }
 
-/** Callbacks of an advance that polls. */
-function polling(module: Module, poll: Poll) {
-  return {
-    poll(count: number, ids: number, time: number, replies: number): void {
-      // The function may call the module, so its memory may grow.
-      const reports = poll(module.numbersAt(ids, count).slice(), time);
-      refusePromise(reports, "poll");
-      if (reports?.length !== count)
-        throw new RangeError(`advance: poll must return an array of ${count} reports, but returned ` +
-                             (reports?.length === undefined ? `${reports}` : `${reports.length}`));
-      const numbers = new Float64Array(count * reportNumbers);
-      for (let k = 0; k < count; ++k) {
-        const report = reports[k];
-        if (report === undefined || report === null) continue;
-        numbers[k * reportNumbers] = 1;
-        putReport(numbers, k * reportNumbers, report, "poll");
-      }
-      module.numbersAt(replies, numbers.length).set(numbers);
-    },
+/** Returns the callback of a ks_poll. */
+function polling(module: Module, poll: Poll): Callback {
+  return (tracks, count, time, records, hasReport) => {
+    const ids = Float64Array.from({ length: count! }, (_, k) => module.at(tracks!).whole(8 * k));
+    // The function may call the module, so its memory may grow.
+    const reports = poll(ids, time!);
+    refusePromise(reports, "poll");
+    if (reports?.length !== count)
+      throw new RangeError(`advance: poll must return an array of ${count} reports, but returned ` +
+                           (reports?.length === undefined ? `${reports}` : `${reports.length}`));
+    for (let k = 0; k < count!; ++k) {
+      const report = reports[k];
+      if (report === undefined || report === null) continue;
+      const at = records! + reportAt.size * k;
+      module.bytes.fill(0, at, at + reportAt.size);
+      putReport(module, at, report, "poll");
+      module.bytes[hasReport! + k] = 1;
+    }
   };
 }

@@ -1,7 +1,11 @@
 // Definitions of monitors: classes, separations, levels.
-import { boundNumbers, boundOf, type ErrorBound } from "./error_bound.js";
+import { boundOf, type ErrorBound, putBound } from "./error_bound.js";
+import type { Place } from "./memory.js";
+import type { Module } from "./module.js";
 import { checkKeys, type Keys, shown, whole } from "./options.js";
-import { monitorFieldKeys, type MonitorFields, monitorFieldsOf, monitorSize, putMonitorFields } from "./records.js";
+import {
+  classAt, monitorAt, monitorFieldKeys, type MonitorFields, monitorFieldsOf, putMonitorFields, separationAt, separationRuleAt,
+} from "./records.js";
 import { type Vec3, vector } from "./state.js";
 
 /** Motion limits that hold for all tracks of a class. At least one of the two limits has to be finite. */
@@ -92,6 +96,7 @@ const levelKeys: Readonly<Record<ShapeName, true>> = { sphere: true, ellipsoid: 
 /** The shapes of the library, by number. */
 const shapes = ["ellipsoid", "cylinder", "wellClear"] as const;
 
+/** Returns the shape and the numbers of a ks_separation. */
 function levelNumbers(level: Separation, what: string): number[] {
   const call = "Monitor";
   checkKeys<Partial<Record<ShapeName, object>>>(level, levelKeys, what, call);
@@ -112,10 +117,10 @@ function levelNumbers(level: Separation, what: string): number[] {
   return [shape, volume.horizontal, volume.vertical, volume.lookAhead ?? 0, 0];
 }
 
-function separationOf(numbers: Float64Array): Separation {
-  const [shape, horizontal, vertical, lookAhead, modifiedTau] =
-    Array.from(numbers) as [number, number, number, number, number];
-  const name = shapes[shape]!;
+function separationOf(from: Place): Separation {
+  const name = shapes[from.word(separationAt.shape)]!;
+  const horizontal = from.number(separationAt.horizontal), vertical = from.number(separationAt.vertical);
+  const lookAhead = from.number(separationAt.lookAhead), modifiedTau = from.number(separationAt.modifiedTau);
   if (name === "wellClear") return { wellClear: { horizontal, vertical, lookAhead, modifiedTau } };
   if (name === "cylinder") return { cylinder: { horizontal, vertical, lookAhead } };
   return horizontal === vertical ? { sphere: { distance: horizontal, lookAhead } }
@@ -127,68 +132,75 @@ function list<T>(values: readonly T[], what: string): readonly T[] {
   return values;
 }
 
-/** Returns numbers in the order of monitor_definition_at() in browser/module/monitor.cpp. */
-export function monitorNumbers(definition: MonitorDefinition): number[] {
+/** Returns the address of a ks_monitor_definition, for the duration of a call. */
+export function monitorRecord(module: Module, definition: MonitorDefinition): number {
   const call = "Monitor";
   checkKeys(definition, monitorKeys, "definition", call);
-  const shard = definition.shard ?? {};
+  const { startTime, shard = {} } = definition;
   checkKeys(shard, shardKeys, "shard", call);
   const classes = list(definition.classes, "classes");
   const separations = list(definition.separations ?? [], "separations");
   const share = (value: number, what: string) => whole(value, Number.MAX_SAFE_INTEGER, `shard.${what}`, call);
   whole(definition.dimensions ?? 3, 3, "dimensions", call);
-  const fields = new Float64Array(monitorSize);
-  putMonitorFields(fields, 0, definition, call);
-  const numbers = [
-    ...fields,
-    definition.startTime === undefined ? 0 : 1,
-    definition.startTime ?? 0,
-    share(shard.of ?? 1, "of"),
-    share(shard.first ?? 0, "first"),
-    share(shard.count ?? 1, "count"),
-    classes.length,
-    separations.length,
-  ];
+  const at = module.record(monitorAt);
+  putMonitorFields(module, at, definition, call);
+  module.putWord(at + monitorAt.hasStartTime, startTime === undefined ? 0 : 1);
+  module.putNumber(at + monitorAt.startTime, startTime ?? 0);
+  module.putWhole(at + monitorAt.shardOf, share(shard.of ?? 1, "of"));
+  module.putWhole(at + monitorAt.shardFirst, share(shard.first ?? 0, "first"));
+  module.putWhole(at + monitorAt.shardCount, share(shard.count ?? 1, "count"));
+  const first = module.room(classAt.size * classes.length);
   for (const [k, one] of classes.entries()) {
-    checkKeys(one, classKeys, `classes[${k}]`, call);
-    numbers.push(
-      ...boundNumbers(one.accelerationLimit ?? Infinity, `classes[${k}].accelerationLimit`, call),
-      ...boundNumbers(one.largestSpeed ?? Infinity, `classes[${k}].largestSpeed`, call),
-      ...vector(one.plannedAcceleration ?? [0, 0, 0], `classes[${k}].plannedAcceleration`, call));
+    const own = first + classAt.size * k, what = `classes[${k}]`;
+    checkKeys(one, classKeys, what, call);
+    putBound(module, own + classAt.accelerationLimit, one.accelerationLimit ?? Infinity, `${what}.accelerationLimit`, call);
+    putBound(module, own + classAt.largestSpeed, one.largestSpeed ?? Infinity, `${what}.largestSpeed`, call);
+    module.putVector(own + classAt.plannedAcceleration,
+                     vector(one.plannedAcceleration ?? [0, 0, 0], `${what}.plannedAcceleration`, call));
   }
+  module.putWord(at + monitorAt.classes, first);
+  module.putWord(at + monitorAt.classCount, classes.length);
+  const rules = module.room(separationRuleAt.size * separations.length);
   for (const [k, rule] of separations.entries()) {
-    const what = `separations[${k}]`;
+    const own = rules + separationRuleAt.size * k, what = `separations[${k}]`;
     checkKeys(rule, ruleKeys, what, call);
     const levels = list(rule.levels, `${what}.levels`);
-    numbers.push(whole(rule.firstClass ?? 0, 2 ** 32 - 1, `${what}.firstClass`, call),
-                 whole(rule.secondClass ?? 0, 2 ** 32 - 1, `${what}.secondClass`, call), levels.length);
-    for (const [place, level] of levels.entries()) numbers.push(...levelNumbers(level, `${what}.levels[${place}]`));
+    module.putWord(own + separationRuleAt.firstClass, whole(rule.firstClass ?? 0, 2 ** 32 - 1, `${what}.firstClass`, call));
+    module.putWord(own + separationRuleAt.secondClass, whole(rule.secondClass ?? 0, 2 ** 32 - 1, `${what}.secondClass`, call));
+    const all = module.room(separationAt.size * levels.length);
+    for (const [place, level] of levels.entries()) {
+      const [shape, ...numbers] = levelNumbers(level, `${what}.levels[${place}]`);
+      module.putWord(all + separationAt.size * place, shape!);
+      module.putVector(all + separationAt.size * place + separationAt.horizontal, numbers);
+    }
+    module.putWord(own + separationRuleAt.levels, all);
+    module.putWord(own + separationRuleAt.levelCount, levels.length);
   }
-  return numbers;
+  module.putWord(at + monitorAt.separations, rules);
+  module.putWord(at + monitorAt.separationCount, separations.length);
+  return at;
 }
 
-/** Returns the definition that these numbers describe. */
-export function monitorDefinitionOf(numbers: Float64Array): FullMonitorDefinition {
-  let next = monitorSize;
-  const number = () => numbers[next++]!;
-  const several = (count: number) => numbers.subarray(next, (next += count));
-  const [starts, startTime] = several(2);
-  const common = {
-    ...monitorFieldsOf(numbers), ...(starts === 0 ? {} : { startTime: startTime! }),
-    shard: { of: number(), first: number(), count: number() },
-  };
-  const classes = number(), rules = number();
+/** Reads a ks_monitor_definition. */
+export function monitorDefinitionOf(module: Module, address: number): FullMonitorDefinition {
+  const from = module.at(address);
+  const records = <T>(of: Place, first: number, count: number, size: number, read: (record: Place) => T) =>
+    Array.from({ length: of.word(count) }, (_, k) => read(module.at(of.word(first) + size * k)));
   return {
-    ...common,
-    classes: Array.from({ length: classes }, () =>
-      ({ accelerationLimit: boundOf(several(3)), largestSpeed: boundOf(several(3)), plannedAcceleration: several(3) })),
-    separations: Array.from({ length: rules }, () => {
-      const [firstClass, secondClass, levels] = several(3);
-      return {
-        firstClass: firstClass!,
-        secondClass: secondClass!,
-        levels: Array.from({ length: levels! }, () => separationOf(several(5))),
-      };
-    }),
+    ...monitorFieldsOf(from),
+    ...(from.word(monitorAt.hasStartTime) === 0 ? {} : { startTime: from.number(monitorAt.startTime) }),
+    shard: {
+      of: from.whole(monitorAt.shardOf), first: from.whole(monitorAt.shardFirst), count: from.whole(monitorAt.shardCount),
+    },
+    classes: records(from, monitorAt.classes, monitorAt.classCount, classAt.size, (one) => ({
+      accelerationLimit: boundOf(one, classAt.accelerationLimit),
+      largestSpeed: boundOf(one, classAt.largestSpeed),
+      plannedAcceleration: one.vector(classAt.plannedAcceleration).slice(),
+    })),
+    separations: records(from, monitorAt.separations, monitorAt.separationCount, separationRuleAt.size, (rule) => ({
+      firstClass: rule.word(separationRuleAt.firstClass),
+      secondClass: rule.word(separationRuleAt.secondClass),
+      levels: records(rule, separationRuleAt.levels, separationRuleAt.levelCount, separationAt.size, separationOf),
+    })),
   };
 }

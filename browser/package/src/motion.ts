@@ -1,6 +1,7 @@
 // Ready-made motions, which move bodies inside the module: their states need no call of JavaScript.
-import { Owned, type Scratch, theModule } from "./module.js";
+import { type Module, Owned, theModule, type Value } from "./module.js";
 import { checkKeys, type Keys, requireNumbers, shown, whole } from "./options.js";
+import { bodyAt } from "./records.js";
 import { countOf, each, type PerBody, sixes, sixOf, type State, type States, type Vec3, vector } from "./state.js";
 import type { World } from "./world.js";
 
@@ -8,6 +9,11 @@ import type { World } from "./world.js";
 export class Made {
   /** @internal */
   constructor(readonly address: number) {}
+}
+
+/** Returns the number of a body, or of one that no motion has if it is none. */
+export function numberIn(body: number): number {
+  return typeof body !== "number" || (Number.isInteger(body) && body >= 0 && body < 2 ** 32) ? body : -1;
 }
 
 /**
@@ -19,6 +25,10 @@ export class Motion extends Owned {
   constructor(made: Made) {
     super(made.address, "motion_free");
   }
+  /** @internal */
+  protected override get kind(): string {
+    return "Motion";
+  }
 
   /** An upper limit of the bodies' numbers; not reached itself. */
   get size(): number {
@@ -26,7 +36,7 @@ export class Motion extends Owned {
   }
   /** True if the motion has a body of this number. */
   contains(body: number): boolean {
-    return body >= 0 && body < this.size && theModule().call("motion_contains", this.address, body) !== 0;
+    return body >= 0 && body < this.size && theModule().call("motion_contains", this.address, numberIn(body)) !== 0;
   }
   /**
    * Returns six numbers for each: position and velocity, at `time` or, if the motion does not have the body then, at
@@ -36,11 +46,11 @@ export class Motion extends Owned {
     if (bodies !== undefined) requireNumbers(bodies, "bodies", "states");
     const module = theModule();
     const count = bodies?.length ?? this.size;
-    return module.with((scratch) => {
-      const numbers = bodies === undefined ? 0 : scratch.numbers(bodies);
-      const states = scratch.room(6 * count);
+    return module.with(() => {
+      const numbers = bodies === undefined ? 0 : module.words(Array.from(bodies, numberIn));
+      const states = module.room(48 * count);
       module.call("motion_states", this.address, time, count, numbers, states);
-      return module.numbersAt(states, 6 * count).slice();
+      return module.numbersAt(states, 6 * count);
     });
   }
   /** The state of a body at a time. Throws for an unknown body, and for a time before its last change. */
@@ -51,17 +61,16 @@ export class Motion extends Owned {
   /** Returns the body's limits and state for a world. */
   definition(body: number, time: number): MotionDefinition {
     const module = theModule();
-    return module.with((scratch) => {
-      const room = scratch.room(12);
-      module.require(module.call("motion_definition", this.address, body, time, room));
-      const numbers = module.numbersAt(room, 12).slice();
+    return module.with(() => {
+      const at = module.room(bodyAt.size);
+      module.check("motion_definition", this.address, numberIn(body), time, at);
+      const from = module.copy(at, bodyAt.size);
       return {
-        accelerationLimit: numbers[0]!,
-        plannedAcceleration: numbers.subarray(1, 4),
-        positionError: numbers[4]!,
-        velocityError: numbers[5]!,
-        position: numbers.subarray(6, 9),
-        velocity: numbers.subarray(9, 12),
+        accelerationLimit: from.number(bodyAt.accelerationLimit),
+        plannedAcceleration: from.vector(bodyAt.plannedAcceleration),
+        positionError: from.number(bodyAt.positionError),
+        velocityError: from.number(bodyAt.velocityError),
+        ...from.state(bodyAt.position),
       };
     });
   }
@@ -69,33 +78,28 @@ export class Motion extends Owned {
   setVelocity(body: number, time: number, velocity: Vec3): void {
     const numbers = vector(velocity, "velocity", "Motion.setVelocity");
     const module = theModule();
-    module.with((scratch) =>
-      module.require(module.call("motion_set_velocity", this.address, body, time, scratch.numbers(numbers))));
+    module.with(() => module.check("motion_set_velocity", this.address, numberIn(body), time, module.numbers(numbers)));
   }
   /** Sets the state. Call World.teleport as well if a world has the body. */
   teleport(body: number, time: number, state: State): void {
     const numbers = sixOf(state, "Motion.teleport");
     const module = theModule();
-    module.with((scratch) =>
-      module.require(module.call("motion_teleport", this.address, body, time, scratch.numbers(numbers))));
+    module.with(() => module.check("motion_teleport", this.address, numberIn(body), time, module.numbers(numbers)));
   }
   /** Removes the body. The next added body takes its number. */
   remove(body: number): void {
-    const module = theModule();
-    module.require(module.call("motion_remove", this.address, body));
+    theModule().check("motion_remove", this.address, numberIn(body));
   }
   /** Adds a body that moves on from there; returns its number. Bodies that fly freely ignore the limit. */
   add(time: number, state: State, accelerationLimit = 0, orientation: ArrayLike<number> = [1, 0, 0, 0]): number {
     const call = "Motion.add";
     const numbers = sixOf(state, call);
     const module = theModule();
-    const body = module.with((scratch) => {
-      const [count, address] = rotationArguments(scratch, orientation, call);
+    return module.with(() => {
+      const [count, address] = rotationArguments(module, orientation, call);
       if (count !== 1) throw new TypeError(`${call}: orientation must be four numbers w, x, y, z`);
-      return module.call("motion_add", this.address, time, scratch.numbers(numbers), accelerationLimit, address);
+      return module.word("motion_add", this.address, time, module.numbers(numbers), accelerationLimit, address);
     });
-    if (body < 0) throw module.error();
-    return body;
   }
   /** Returns an independent copy. */
   clone(): this {
@@ -129,8 +133,8 @@ function limited<Options extends LimitedMotion>(name: string, call: string, star
   const count = numbers.length / 6;
   const limits = each(options.accelerationLimits, count, "accelerationLimits", call);
   const module = theModule();
-  return new Made(module.with((scratch) => module.require(
-    module.call(name, count, scratch.numbers(numbers), scratch.numbers(limits), ...more, options.startTime ?? 0))));
+  return new Made(module.with(() =>
+    module.word(name, count, module.numbers(numbers), module.numbers(limits), ...more, options.startTime ?? 0)));
 }
 
 /** The bodies of a Ballistic motion, and their gravity. */
@@ -158,9 +162,8 @@ function flying(start: States, options: BallisticOptions): Made {
   const numbers = sixes(start, call);
   const gravity = vector(options.gravity ?? [0, 0, 0], "gravity", call);
   const module = theModule();
-  return new Made(module.with((scratch) => module.require(
-    module.call("motion_ballistic", numbers.length / 6, scratch.numbers(numbers), scratch.numbers(gravity),
-                options.startTime ?? 0))));
+  return new Made(module.with(() => module.word(
+    "motion_ballistic", numbers.length / 6, module.numbers(numbers), module.numbers(gravity), options.startTime ?? 0)));
 }
 
 export interface RandomForcesOptions extends LimitedMotion {
@@ -195,8 +198,7 @@ export class SteeredMotion extends Motion {
   steer(body: number, time: number, acceleration: Vec3): void {
     const numbers = vector(acceleration, "acceleration", "steer");
     const module = theModule();
-    module.with((scratch) =>
-      module.require(module.call("motion_steer", this.address, body, time, scratch.numbers(numbers))));
+    module.with(() => module.check("motion_steer", this.address, numberIn(body), time, module.numbers(numbers)));
   }
 }
 
@@ -234,25 +236,25 @@ function framed(start: States, options: FrameMotionOptions): Made {
   const count = numbers.length / 6;
   const limits = each(options.accelerationLimits ?? Infinity, count, "accelerationLimits", call);
   const module = theModule();
-  return new Made(module.with((scratch) => module.require(module.call(
-    "motion_frames", count, scratch.numbers(numbers), scratch.numbers(limits), options.interval ?? 1 / 60,
-    options.positionError ?? 0, ...rotationArguments(scratch, options.rotations, call), options.startTime ?? 0))));
+  return new Made(module.with(() => module.word(
+    "motion_frames", count, module.numbers(numbers), module.numbers(limits), options.interval ?? 1 / 60,
+    options.positionError ?? 0, ...rotationArguments(module, options.rotations, call), options.startTime ?? 0)));
 }
 
 /** Returns the number of rotations and their address, which is 0 without any. */
 export function rotationArguments(
-  scratch: Scratch, rotations: ArrayLike<number> | undefined, call: string,
+  module: Module, rotations: ArrayLike<number> | undefined, call: string,
 ): [count: number, address: number] {
   if (rotations === undefined) return [0, 0];
   requireNumbers(rotations, "rotations", call);
   if (rotations.length % 4 !== 0)
     throw new RangeError(`${call}: rotations must have four numbers w, x, y, z for each body, but has ${rotations.length}`);
-  return [rotations.length / 4, scratch.numbers(rotations)];
+  return [rotations.length / 4, module.numbers(rotations)];
 }
 
 /** Returns the address of a time, which is 0 without one. */
-export function timeArgument(scratch: Scratch, time: number | undefined): number {
-  return time === undefined ? 0 : scratch.numbers([time]);
+export function timeArgument(module: Module, time: number | undefined): number {
+  return time === undefined ? 0 : module.numbers([time]);
 }
 
 /** A position with which a body violated its limit; see `FrameViolation` in kinesphere/motion/frame_motion.hpp. */
@@ -303,14 +305,14 @@ export class FrameMotion extends Motion {
   ): void {
     const call = "push";
     const isAlone = second === undefined || typeof second === "number";
-    const world = isAlone ? 0 : Owned.addressOf(first as World, "World", "world", call);
+    const world: Value = isAlone ? 0n : Owned.addressOf(first as World, "World", "world", call);
     const positions = isAlone ? (first as ArrayLike<number>) : second;
     const time = isAlone ? second : third;
     const count = countOf(positions, call);
     const module = theModule();
-    module.with((scratch) => module.require(module.call(
-      "frames_push", this.address, world, count, scratch.numbers(positions), timeArgument(scratch, time),
-      ...rotationArguments(scratch, rotations, call))));
+    module.with(() => module.check(
+      "frames_push", this.address, world, count, module.numbers(positions), timeArgument(module, time),
+      ...rotationArguments(module, rotations, call)));
   }
   /**
    * Adds a body that moves on from there, by default without a limit; returns its number. `orientation` counts in a
@@ -327,9 +329,7 @@ export class FrameMotion extends Motion {
   }
   /** Returns four numbers w, x, y, z for each body: its orientation at latestTime; none without rotations. */
   latestRotations(): Float64Array {
-    const module = theModule();
-    module.require(module.call("frames_latest_rotations", this.address));
-    return module.answer();
+    return theModule().answer("frames_latest_rotations", this.address);
   }
   /** Time of the last frame but one: states are known from here to latestTime. */
   get previousTime(): number {
@@ -340,18 +340,14 @@ export class FrameMotion extends Motion {
   }
   /** Bodies that violated their limits in the latest frame. The world has been informed of them. */
   violations(): FrameViolation[] {
-    const module = theModule();
-    module.require(module.call("frames_violations", this.address));
-    const numbers = module.answer();
+    const numbers = theModule().answer("frames_violations", this.address);
     return Array.from({ length: numbers.length / 6 }, (_, k) => {
       const [body, excess, acceleration] = numbers.subarray(6 * k, 6 * k + 3);
       return { body: body!, excess: excess!, acceleration: acceleration!, velocity: numbers.subarray(6 * k + 3, 6 * k + 6) };
     });
   }
   private frame(): Float64Array {
-    const module = theModule();
-    module.require(module.call("frames_latest", this.address));
-    return module.answer();
+    return theModule().answer("frames_latest", this.address);
   }
 }
 
@@ -375,9 +371,7 @@ export class RecordedTracks extends Motion {
   }
   /** Returns the times of the body's first and last sample. */
   span(body: number): { begin: number; end: number } {
-    const module = theModule();
-    module.require(module.call("tracks_span", this.address, body));
-    const [begin, end] = module.answer();
+    const [begin, end] = theModule().answer("tracks_span", this.address, numberIn(body));
     return { begin: begin!, end: end! };
   }
 }
@@ -398,7 +392,6 @@ function alongTracks(tracks: readonly Track[]): Made {
       samples.push(times[k]!, positions[3 * k]!, positions[3 * k + 1]!, positions[3 * k + 2]!);
   }
   const module = theModule();
-  return new Made(module.with((scratch) => module.require(
-    module.call("motion_tracks", tracks.length, scratch.numbers(tracks.map(({ times }) => times.length)),
-                scratch.numbers(samples)))));
+  return new Made(module.with(() => module.word(
+    "motion_tracks", tracks.length, module.numbers(tracks.map(({ times }) => times.length)), module.numbers(samples))));
 }

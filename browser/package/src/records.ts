@@ -1,7 +1,8 @@
 // Generated from include/kinesphere.h by interface/generate.py: change the header, and run that.
-// Enumerations and records of the library, and their tables of numbers for the module.
-import { boundNumbers, type ErrorBound } from "./error_bound.js";
-import { type Filter, filterNumbers } from "./filter.js";
+// Enumerations and records of the library, and where they lie in the memory of the module.
+import { type ErrorBound, putBound } from "./error_bound.js";
+import { type Filter, putFilter } from "./filter.js";
+import { type Memory, Place } from "./memory.js";
 import { type Keys, shown, whole } from "./options.js";
 import { type BodyId, type State, type Vec3, vector } from "./state.js";
 
@@ -62,120 +63,127 @@ function traitsOf(bits: number): BodyTraits {
 
 const senses = ["neither", "first", "second", "both"] as const;
 
-/** @internal Places in the table of a record, and its size. */
-export const eventAt = { kind: 0, time: 1, first: 2, second: 3, wall: 4, repeated: 5, jammed: 6, alreadyTouching: 7,
-  senses: 8, firstTraits: 9, secondTraits: 10, pairState: 11, firstState: 12, secondState: 18, point: 24, normal: 27,
-  gap: 30, approachSpeed: 31, positionExcess: 32, velocityExcess: 33, distance: 34, firstUserData: 35, secondUserData:
-  36, firstMass: 37, secondMass: 38, firstPart: 39, secondPart: 40, firstAngularVelocity: 41, secondAngularVelocity:
-  44, firstSpinGain: 47, secondSpinGain: 50, accelerationLimit: 53 } as const;
-/** @internal */ export const eventSize = 54;
+function contactsNumber(contacts: ContactEvents | undefined, usual: number, call: string): number {
+  if (contacts === undefined) return usual;
+  const number = contactEvents.indexOf(contacts) + 1;
+  if (number < 1)
+    throw new TypeError(`${call}: contacts must be "all", "begin_and_end" or "impacts", but is ${shown(contacts)}`);
+  return number;
+}
+function axesBits(axes: WorldFields["periodic"] = {}): number {
+  return (axes.x ? 1 : 0) + (axes.y ? 2 : 0) + (axes.z ? 4 : 0);
+}
+function axesOf(bits: number): { x: boolean; y: boolean; z: boolean } {
+  return { x: (bits & 1) !== 0, y: (bits & 2) !== 0, z: (bits & 4) !== 0 };
+}
+function idOrNull(id: number): BodyId | null {
+  return id < 0 ? null : id;
+}
 
-/** The fields of an event, read from numbers that never change. */
-export class EventFields {
-  /** @internal */
-  constructor(readonly numbers: Float64Array) {}
+/** @internal Size of a ks_event, and offsets of its fields, in bytes. */
+export const eventAt = { size: 400, kind: 4, time: 8, first: 16, second: 28, wall: 40, repeated: 44, jammed: 48,
+  alreadyTouching: 52, senses: 56, firstTraits: 60, secondTraits: 64, pairState: 68, firstState: 72, secondState: 120,
+  point: 168, normal: 192, gap: 216, approachSpeed: 224, positionExcess: 232, velocityExcess: 240, distance: 248,
+  firstUserData: 256, secondUserData: 264, firstMass: 272, secondMass: 280, firstPart: 288, secondPart: 292,
+  firstAngularVelocity: 296, secondAngularVelocity: 320, firstSpinGain: 344, secondSpinGain: 368, accelerationLimit:
+  392 } as const;
 
-  get kind(): EventKind { return eventKinds[this.numbers[0]!]!; }
-  get time(): number { return this.numbers[1]!; }
+/** The fields of an event, read from memory that never changes. */
+export class EventFields extends Place {
+  get kind(): EventKind { return eventKinds[this.word(4) - 1]!; }
+  get time(): number { return this.number(8); }
   /** The body of the event or, for a pair, the body with the smaller id. A timer has none. */
-  get first(): BodyId { return this.numbers[2]!; }
+  get first(): BodyId { return this.id(16); }
   /** The other body of a pair; null for walls, bound violations, timers and bodies that woke. */
-  get second(): BodyId | null { return this.numbers[3]! < 0 ? null : this.numbers[3]!; }
+  get second(): BodyId | null { return idOrNull(this.id(28)); }
   /** The wall of a wall event. */
-  get wall(): Wall | null { return wallOf(this.numbers[4]!); }
+  get wall(): Wall | null { return wallOf(this.word(40)); }
   /** One of the two touched another body less than the Zeno interval ago: a response should take no energy here. */
-  get repeated(): boolean { return this.numbers[5] === 1; }
+  get repeated(): boolean { return this.word(44) !== 0; }
   /** Each of the two has had 64 contacts at this instant, as if stuck: a response should part them, or stop both. */
-  get jammed(): boolean { return this.numbers[6] === 1; }
+  get jammed(): boolean { return this.word(48) !== 0; }
   /**
    * Of begins: the two have touched since an earlier begin, and approach again. To count contacts, count the others.
    */
-  get alreadyTouching(): boolean { return this.numbers[7] === 1; }
+  get alreadyTouching(): boolean { return this.word(52) !== 0; }
   /** Of sensors: the body or bodies that sense the other one. */
-  get senses(): (typeof senses)[number] { return senses[this.numbers[8]!]!; }
-  get firstTraits(): BodyTraits { return traitsOf(this.numbers[9]!); }
+  get senses(): (typeof senses)[number] { return senses[this.word(56)]!; }
+  get firstTraits(): BodyTraits { return traitsOf(this.word(60)); }
   /** None for a wall. */
-  get secondTraits(): BodyTraits { return traitsOf(this.numbers[10]!); }
+  get secondTraits(): BodyTraits { return traitsOf(this.word(64)); }
   /** The state that the two of a pair were given; 0 for all others. */
-  get pairState(): number { return this.numbers[11]!; }
+  get pairState(): number { return this.word(68); }
   /** At `time`; of a static body one point of its shape. In periodic space the two are nearest images. */
-  get firstState(): State { return this.state(12); }
-  get secondState(): State { return this.state(18); }
+  get firstState(): State { return this.state(72); }
+  get secondState(): State { return this.state(120); }
   /** The middle of the gap between the two surfaces. */
-  get point(): Float64Array { return this.numbers.subarray(24, 27); }
+  get point(): Float64Array { return this.vector(168); }
   /** Unit vector from `first` towards `second`, or towards the wall. */
-  get normal(): Float64Array { return this.numbers.subarray(27, 30); }
+  get normal(): Float64Array { return this.vector(192); }
   /** Distance between the surfaces (length); negative when they overlap. */
-  get gap(): number { return this.numbers[30]!; }
+  get gap(): number { return this.number(216); }
   /** Speed at which the gap closes (length / time); negative when it opens. */
-  get approachSpeed(): number { return this.numbers[31]!; }
+  get approachSpeed(): number { return this.number(224); }
   /** Of a bound violation: how far the reported position lies outside the bound (length). */
-  get positionExcess(): number { return this.numbers[32]!; }
+  get positionExcess(): number { return this.number(232); }
   /** Of a bound violation: by how much the velocity changed more than promised (length / time). */
-  get velocityExcess(): number { return this.numbers[33]!; }
+  get velocityExcess(): number { return this.number(240); }
   /** Of a sensor: the sensor distance that was crossed (length). */
-  get distance(): number { return this.numbers[34]!; }
+  get distance(): number { return this.number(248); }
   /** What the definition of the body gave. */
-  get firstUserData(): number { return this.numbers[35]!; }
-  get secondUserData(): number { return this.numbers[36]!; }
+  get firstUserData(): number { return this.whole(256); }
+  get secondUserData(): number { return this.whole(264); }
   /** Of the body; infinite for a static body. */
-  get firstMass(): number { return this.numbers[37]!; }
+  get firstMass(): number { return this.number(272); }
   /** Of the body; infinite for a static body and for a wall. */
-  get secondMass(): number { return this.numbers[38]!; }
+  get secondMass(): number { return this.number(280); }
   /** Of a rigid body: the number of the part at the contact; of a mesh: that of the triangle; 0 for all others. */
-  get firstPart(): number { return this.numbers[39]!; }
-  get secondPart(): number { return this.numbers[40]!; }
+  get firstPart(): number { return this.word(288); }
+  get secondPart(): number { return this.word(292); }
   /** Of a rigid body (radians / time); zero for all others. */
-  get firstAngularVelocity(): Float64Array { return this.numbers.subarray(41, 44); }
-  get secondAngularVelocity(): Float64Array { return this.numbers.subarray(44, 47); }
+  get firstAngularVelocity(): Float64Array { return this.vector(296); }
+  get secondAngularVelocity(): Float64Array { return this.vector(320); }
   /** Change of the angular velocity of a rigid body by a unit impulse along the normal (radians / (mass length)). */
-  get firstSpinGain(): Float64Array { return this.numbers.subarray(47, 50); }
-  get secondSpinGain(): Float64Array { return this.numbers.subarray(50, 53); }
+  get firstSpinGain(): Float64Array { return this.vector(344); }
+  get secondSpinGain(): Float64Array { return this.vector(368); }
   /** Of a bound violation: the acceleration limit that the body has from now on (length / time^2). */
-  get accelerationLimit(): number { return this.numbers[53]!; }
-
-  private state(from: number): State {
-    return {
-      position: this.numbers.subarray(from, from + 3),
-      velocity: this.numbers.subarray(from + 3, from + 6),
-    };
-  }
+  get accelerationLimit(): number { return this.number(392); }
 }
 
-/** @internal Places in the table of a record, and its size. */
-export const monitorEventAt = { kind: 0, time: 1, first: 2, second: 3, level: 4, verdict: 5, before: 6, since: 7,
-  likelyTime: 8, closestTime: 9, closestDistance: 10, positionExcess: 11, velocityExcess: 12 } as const;
-/** @internal */ export const monitorEventSize = 13;
+/** @internal Size of a ks_monitor_event, and offsets of its fields, in bytes. */
+export const monitorEventAt = { size: 96, kind: 4, time: 8, first: 16, second: 24, level: 32, verdict: 36, before: 40,
+  since: 48, likelyTime: 56, closestTime: 64, closestDistance: 72, positionExcess: 80, velocityExcess: 88 } as const;
 
-/** The fields of an event, read from numbers that never change. */
-export class MonitorEventFields {
-  /** @internal */
-  constructor(readonly numbers: Float64Array) {}
-
-  get kind(): MonitorEventKind { return monitorEventKinds[this.numbers[0]!]!; }
-  get time(): number { return this.numbers[1]!; }
+/** The fields of an event, read from memory that never changes. */
+export class MonitorEventFields extends Place {
+  get kind(): MonitorEventKind { return monitorEventKinds[this.word(4) - 1]!; }
+  get time(): number { return this.number(8); }
   /** The track of the event; for a pair, the one with the lower id. */
-  get first(): TrackId { return this.numbers[2]!; }
+  get first(): TrackId { return this.whole(16); }
   /** Of a verdict or a prediction: the separation level. */
-  get level(): number { return this.numbers[4]!; }
+  get level(): number { return this.word(32); }
   /**
    * Time at which the verdict before began, -Infinity for a pair that was apart at all levels; of a prediction, time
    * at which it began.
    */
-  get since(): number { return this.numbers[7]!; }
+  get since(): number { return this.number(48); }
   /** Of a prediction: the time at which the two come within; Infinity if they never do. */
-  get likelyTime(): number { return this.numbers[8]!; }
+  get likelyTime(): number { return this.number(56); }
   /** Of a prediction: the time of the closest approach. */
-  get closestTime(): number { return this.numbers[9]!; }
+  get closestTime(): number { return this.number(64); }
   /** Of a prediction: the distance then (length); for a cylinder that in the plane. */
-  get closestDistance(): number { return this.numbers[10]!; }
+  get closestDistance(): number { return this.number(72); }
   /** Of a contradiction: how far the position is outside of what was possible (length). */
-  get positionExcess(): number { return this.numbers[11]!; }
+  get positionExcess(): number { return this.number(80); }
   /** Of a contradiction: how far the velocity is outside (length / time). */
-  get velocityExcess(): number { return this.numbers[12]!; }
+  get velocityExcess(): number { return this.number(88); }
 }
 
-/** @internal */ export const pairAnswerSize = 16;
+/** @internal Size of a ks_pair_answer, and offsets of its fields, in bytes. */
+export const pairAnswerAt = { size: 128, verdict: 4, predicted: 8, since: 16, until: 24, lower: 32, upper: 40,
+  closestDistance: 48, closestTime: 56, closestHorizontal: 64, closestVertical: 72, relativeSpeed: 80, likelyTime: 88,
+  inevitableBy: 96, avoidableUntil: 104, ask: 112, askBy: 120 } as const;
+
 /** The verdict about two tracks, with a forecast. */
 export interface PairAnswer {
   verdict: Verdict;
@@ -211,28 +219,30 @@ export interface PairAnswer {
   askBy: number;
 }
 /** @internal */
-export function pairAnswerOf(numbers: Float64Array): PairAnswer {
+export function pairAnswerOf(from: Place): PairAnswer {
   return {
-    verdict: verdicts[numbers[0]!]!,
-    predicted: numbers[1] === 1,
-    since: numbers[2]!,
-    until: numbers[3]!,
-    lower: numbers[4]!,
-    upper: numbers[5]!,
-    closestDistance: numbers[6]!,
-    closestTime: numbers[7]!,
-    closestHorizontal: numbers[8]!,
-    closestVertical: numbers[9]!,
-    relativeSpeed: numbers[10]!,
-    likelyTime: numbers[11]!,
-    inevitableBy: numbers[12]!,
-    avoidableUntil: numbers[13]!,
-    ask: numbers[14]!,
-    askBy: numbers[15]!,
+    verdict: verdicts[from.word(4)]!,
+    predicted: from.word(8) !== 0,
+    since: from.number(16),
+    until: from.number(24),
+    lower: from.number(32),
+    upper: from.number(40),
+    closestDistance: from.number(48),
+    closestTime: from.number(56),
+    closestHorizontal: from.number(64),
+    closestVertical: from.number(72),
+    relativeSpeed: from.number(80),
+    likelyTime: from.number(88),
+    inevitableBy: from.number(96),
+    avoidableUntil: from.number(104),
+    ask: from.whole(112),
+    askBy: from.number(120),
   };
 }
 
-/** @internal */ export const openPairSize = 5;
+/** @internal Size of a ks_open_pair, and offsets of its fields, in bytes. */
+export const openPairAt = { size: 32, first: 0, second: 8, level: 16, verdict: 20, since: 24 } as const;
+
 /** A pair that is not certainly apart at a level. */
 export interface OpenPair {
   first: TrackId;
@@ -242,17 +252,20 @@ export interface OpenPair {
   since: number;
 }
 /** @internal */
-export function openPairOf(numbers: Float64Array): OpenPair {
+export function openPairOf(from: Place): OpenPair {
   return {
-    first: numbers[0]!,
-    second: numbers[1]!,
-    level: numbers[2]!,
-    verdict: verdicts[numbers[3]!]!,
-    since: numbers[4]!,
+    first: from.whole(0),
+    second: from.whole(8),
+    level: from.word(16),
+    verdict: verdicts[from.word(20)]!,
+    since: from.number(24),
   };
 }
 
-/** @internal */ export const predictedPairSize = 7;
+/** @internal Size of a ks_predicted_pair, and offsets of its fields, in bytes. */
+export const predictedPairAt = { size: 56, first: 0, second: 8, level: 16, since: 24, likelyTime: 32, closestTime: 40,
+  closestDistance: 48 } as const;
+
 export interface PredictedPair {
   first: TrackId;
   second: TrackId;
@@ -264,19 +277,21 @@ export interface PredictedPair {
   closestDistance: number;
 }
 /** @internal */
-export function predictedPairOf(numbers: Float64Array): PredictedPair {
+export function predictedPairOf(from: Place): PredictedPair {
   return {
-    first: numbers[0]!,
-    second: numbers[1]!,
-    level: numbers[2]!,
-    since: numbers[3]!,
-    likelyTime: numbers[4]!,
-    closestTime: numbers[5]!,
-    closestDistance: numbers[6]!,
+    first: from.whole(0),
+    second: from.whole(8),
+    level: from.word(16),
+    since: from.number(24),
+    likelyTime: from.number(32),
+    closestTime: from.number(40),
+    closestDistance: from.number(48),
   };
 }
 
-/** @internal */ export const reportRequestSize = 3;
+/** @internal Size of a ks_report_request, and offsets of its fields, in bytes. */
+export const reportRequestAt = { size: 24, track: 0, other: 8, by: 16 } as const;
+
 /** A report of `track` is needed by the time `by` for its verdict with `other` to stay certain. */
 export interface ReportRequest {
   track: TrackId;
@@ -284,26 +299,18 @@ export interface ReportRequest {
   by: number;
 }
 /** @internal */
-export function reportRequestOf(numbers: Float64Array): ReportRequest {
+export function reportRequestOf(from: Place): ReportRequest {
   return {
-    track: numbers[0]!,
-    other: numbers[1]!,
-    by: numbers[2]!,
+    track: from.whole(0),
+    other: from.whole(8),
+    by: from.number(16),
   };
 }
 
-function contactsNumber(contacts: ContactEvents | undefined, usual: number, call: string): number {
-  if (contacts === undefined) return usual;
-  const number = contactEvents.indexOf(contacts) + 1;
-  if (number < 1)
-    throw new TypeError(`${call}: contacts must be "all", "begin_and_end" or "impacts", but is ${shown(contacts)}`);
-  return number;
-}
-
-/** @internal Places in the table of a record, and its size. */
-export const worldAt = { dimensions: 0, periodic: 1, contactTolerance: 4, separationDistance: 5, zenoInterval: 6,
-  startTime: 7, contacts: 8, allowOverlap: 9, spreadWindowStarts: 10, adoptObservedLimits: 11 } as const;
-/** @internal */ export const worldSize = 12;
+/** @internal Size of a ks_world_definition, and offsets of its fields, in bytes. */
+export const worldAt = { size: 144, dimensions: 4, hasBox: 8, periodic: 12, box: 16, contactTolerance: 64,
+  separationDistance: 72, zenoInterval: 80, startTime: 88, contacts: 96, allowOverlap: 100, spreadWindowStarts: 104,
+  hasWallFilter: 108, wallFilter: 112, adoptObservedLimits: 136 } as const;
 
 /** Fields and ranges: kinesphere/world_definition.hpp. */
 export interface WorldFields {
@@ -335,40 +342,40 @@ export interface WorldFields {
 export const worldFieldKeys: Keys<WorldFields> = { dimensions: "number", periodic: true, contactTolerance: "number",
   separationDistance: "number", zenoInterval: "number", startTime: "number", contacts: true, allowOverlap: "boolean",
   spreadWindowStarts: "boolean", adoptObservedLimits: "boolean" };
-/** @internal Writes the table that the module reads; what is not given has its default. */
-export function putWorldFields(numbers: Float64Array, at: number, given: WorldFields, call: string): void {
-  numbers[at + 0] = given.dimensions ?? 3;
-  numbers.set([given.periodic?.x ? 1 : 0, given.periodic?.y ? 1 : 0, given.periodic?.z ? 1 : 0], at + 1);
-  numbers[at + 4] = given.contactTolerance ?? 1e-6;
-  numbers[at + 5] = given.separationDistance ?? NaN;
-  numbers[at + 6] = given.zenoInterval ?? 0;
-  numbers[at + 7] = given.startTime ?? 0;
-  numbers[at + 8] = contactsNumber(given.contacts, 3, call);
-  numbers[at + 9] = given.allowOverlap === false ? 0 : 1;
-  numbers[at + 10] = given.spreadWindowStarts ? 1 : 0;
-  numbers[at + 11] = given.adoptObservedLimits === false ? 0 : 1;
+/** @internal Writes a record of zeros; what is not given has its default. */
+export function putWorldFields(to: Memory, at: number, given: WorldFields, call: string): void {
+  to.putWord(at + 4, given.dimensions ?? 3);
+  to.putWord(at + 12, axesBits(given.periodic));
+  to.putNumber(at + 64, given.contactTolerance ?? 1e-6);
+  to.putNumber(at + 72, given.separationDistance ?? NaN);
+  to.putNumber(at + 80, given.zenoInterval ?? 0);
+  to.putNumber(at + 88, given.startTime ?? 0);
+  to.putWord(at + 96, contactsNumber(given.contacts, 3, call));
+  to.putWord(at + 100, given.allowOverlap === false ? 0 : 1);
+  to.putWord(at + 104, given.spreadWindowStarts ? 1 : 0);
+  to.putWord(at + 136, given.adoptObservedLimits === false ? 0 : 1);
 }
 
 /** @internal */
-export function worldFieldsOf(numbers: Float64Array): Required<WorldFields> {
+export function worldFieldsOf(from: Place): Required<WorldFields> {
   return {
-    dimensions: numbers[0]! as 2 | 3,
-    periodic: { x: numbers[1] === 1, y: numbers[2] === 1, z: numbers[3] === 1 },
-    contactTolerance: numbers[4]!,
-    separationDistance: numbers[5]!,
-    zenoInterval: numbers[6]!,
-    startTime: numbers[7]!,
-    contacts: contactEvents[numbers[8]! - 1]!,
-    allowOverlap: numbers[9] === 1,
-    spreadWindowStarts: numbers[10] === 1,
-    adoptObservedLimits: numbers[11] === 1,
+    dimensions: from.word(4) as 2 | 3,
+    periodic: axesOf(from.word(12)),
+    contactTolerance: from.number(64),
+    separationDistance: from.number(72),
+    zenoInterval: from.number(80),
+    startTime: from.number(88),
+    contacts: contactEvents[from.word(96) - 1]!,
+    allowOverlap: from.word(100) !== 0,
+    spreadWindowStarts: from.word(104) !== 0,
+    adoptObservedLimits: from.word(136) !== 0,
   };
 }
 
-/** @internal Places in the table of a record, and its size. */
-export const bodyAt = { solid: 0, contacts: 1, sensorClass: 2, radius: 3, accelerationLimit: 4, positionError: 5,
-  velocityError: 6, mass: 7, plannedAcceleration: 8, position: 11, velocity: 14, filter: 17, userData: 20 } as const;
-/** @internal */ export const bodySize = 21;
+/** @internal Size of a ks_body_definition, and offsets of its fields, in bytes. */
+export const bodyAt = { size: 160, solid: 4, contacts: 8, sensorClass: 12, radius: 16, accelerationLimit: 24,
+  positionError: 32, velocityError: 40, mass: 48, plannedAcceleration: 56, position: 80, velocity: 104, filter: 128,
+  userData: 152 } as const;
 
 /** Fields and ranges: kinesphere/body.hpp. */
 export interface BodyFields {
@@ -401,27 +408,26 @@ export interface BodyFields {
 export const bodyFieldKeys: Keys<BodyFields> = { solid: "boolean", contacts: true, sensorClass: "number", radius:
   "number", accelerationLimit: "number", positionError: "number", velocityError: "number", mass: "number",
   plannedAcceleration: true, position: true, velocity: true, filter: true, userData: "number" };
-/** @internal Writes the table that the module reads; what is not given has its default. */
-export function putBodyFields(numbers: Float64Array, at: number, given: BodyFields, call: string): void {
-  numbers[at + 0] = given.solid === false ? 0 : 1;
-  numbers[at + 1] = contactsNumber(given.contacts, 0, call);
-  numbers[at + 2] = whole(given.sensorClass ?? 0, 255, "sensorClass", call);
-  numbers[at + 3] = given.radius ?? 1;
-  numbers[at + 4] = given.accelerationLimit ?? 0;
-  numbers[at + 5] = given.positionError ?? 0;
-  numbers[at + 6] = given.velocityError ?? 0;
-  numbers[at + 7] = given.mass ?? 1;
-  numbers.set(vector(given.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", call), at + 8);
-  numbers.set(vector(given.position, "position", call), at + 11);
-  numbers.set(vector(given.velocity ?? [0, 0, 0], "velocity", call), at + 14);
-  numbers.set(filterNumbers(given.filter ?? {}, call), at + 17);
-  numbers[at + 20] = whole(given.userData ?? 0, 2 ** 53, "userData", call);
+/** @internal Writes a record of zeros; what is not given has its default. */
+export function putBodyFields(to: Memory, at: number, given: BodyFields, call: string): void {
+  to.putWord(at + 4, given.solid === false ? 0 : 1);
+  to.putWord(at + 8, contactsNumber(given.contacts, 0, call));
+  to.putWord(at + 12, whole(given.sensorClass ?? 0, 255, "sensorClass", call));
+  to.putNumber(at + 16, given.radius ?? 1);
+  to.putNumber(at + 24, given.accelerationLimit ?? 0);
+  to.putNumber(at + 32, given.positionError ?? 0);
+  to.putNumber(at + 40, given.velocityError ?? 0);
+  to.putNumber(at + 48, given.mass ?? 1);
+  to.putVector(at + 56, vector(given.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", call));
+  to.putVector(at + 80, vector(given.position, "position", call));
+  to.putVector(at + 104, vector(given.velocity ?? [0, 0, 0], "velocity", call));
+  putFilter(to, at + 128, given.filter ?? {}, call);
+  to.putWhole(at + 152, whole(given.userData ?? 0, 2 ** 53, "userData", call));
 }
 
-/** @internal Places in the table of a record, and its size. */
-export const motionLimitsAt = { accelerationLimit: 0, positionError: 1, velocityError: 2, plannedAcceleration: 3
-  } as const;
-/** @internal */ export const motionLimitsSize = 6;
+/** @internal Size of a ks_motion_limits, and offsets of its fields, in bytes. */
+export const motionLimitsAt = { size: 48, accelerationLimit: 0, positionError: 8, velocityError: 16,
+  plannedAcceleration: 24 } as const;
 
 /** Limits within which a body moves. */
 export interface MotionLimits {
@@ -433,18 +439,19 @@ export interface MotionLimits {
 /** @internal */
 export const motionLimitsFieldKeys: Keys<MotionLimits> = { accelerationLimit: "number", positionError: "number",
   velocityError: "number", plannedAcceleration: true };
-/** @internal Writes the table that the module reads; what is not given has its default. */
-export function putMotionLimits(numbers: Float64Array, at: number, given: MotionLimits, call: string): void {
-  numbers[at + 0] = given.accelerationLimit ?? 0;
-  numbers[at + 1] = given.positionError ?? 0;
-  numbers[at + 2] = given.velocityError ?? 0;
-  numbers.set(vector(given.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", call), at + 3);
+/** @internal Writes a record of zeros; what is not given has its default. */
+export function putMotionLimits(to: Memory, at: number, given: MotionLimits, call: string): void {
+  to.putNumber(at + 0, given.accelerationLimit ?? 0);
+  to.putNumber(at + 8, given.positionError ?? 0);
+  to.putNumber(at + 16, given.velocityError ?? 0);
+  to.putVector(at + 24, vector(given.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", call));
 }
 
-/** @internal Places in the table of a record, and its size. */
-export const monitorAt = { dimensions: 0, tolerance: 1, timeResolution: 2, window: 3, staleAfter: 4, dropAfter: 5,
-  predictionHold: 6, predictionConfirmation: 7, predictionMargin: 8, predictionErrorPart: 9 } as const;
-/** @internal */ export const monitorSize = 10;
+/** @internal Size of a ks_monitor_definition, and offsets of its fields, in bytes. */
+export const monitorAt = { size: 136, dimensions: 4, hasStartTime: 8, startTime: 16, classes: 24, classCount: 28,
+  separations: 32, separationCount: 36, tolerance: 40, timeResolution: 48, window: 56, staleAfter: 64, dropAfter: 72,
+  predictionHold: 80, predictionConfirmation: 88, predictionMargin: 96, predictionErrorPart: 104, shardOf: 112,
+  shardFirst: 120, shardCount: 128 } as const;
 
 /** Fields: MonitorDefinition in kinesphere/monitor/monitor.hpp. */
 export interface MonitorFields {
@@ -473,40 +480,39 @@ export interface MonitorFields {
 export const monitorFieldKeys: Keys<MonitorFields> = { dimensions: "number", tolerance: "number", timeResolution:
   "number", window: "number", staleAfter: "number", dropAfter: "number", predictionHold: "number",
   predictionConfirmation: "number", predictionMargin: "number", predictionErrorPart: "number" };
-/** @internal Writes the table that the module reads; what is not given has its default. */
-export function putMonitorFields(numbers: Float64Array, at: number, given: MonitorFields, _call: string): void {
-  numbers[at + 0] = given.dimensions ?? 3;
-  numbers[at + 1] = given.tolerance ?? 1e-3;
-  numbers[at + 2] = given.timeResolution ?? 1e-3;
-  numbers[at + 3] = given.window ?? 1;
-  numbers[at + 4] = given.staleAfter ?? Infinity;
-  numbers[at + 5] = given.dropAfter ?? Infinity;
-  numbers[at + 6] = given.predictionHold ?? 0;
-  numbers[at + 7] = given.predictionConfirmation ?? 0;
-  numbers[at + 8] = given.predictionMargin ?? 0;
-  numbers[at + 9] = given.predictionErrorPart ?? 0;
+/** @internal Writes a record of zeros; what is not given has its default. */
+export function putMonitorFields(to: Memory, at: number, given: MonitorFields, _call: string): void {
+  to.putWord(at + 4, given.dimensions ?? 3);
+  to.putNumber(at + 40, given.tolerance ?? 1e-3);
+  to.putNumber(at + 48, given.timeResolution ?? 1e-3);
+  to.putNumber(at + 56, given.window ?? 1);
+  to.putNumber(at + 64, given.staleAfter ?? Infinity);
+  to.putNumber(at + 72, given.dropAfter ?? Infinity);
+  to.putNumber(at + 80, given.predictionHold ?? 0);
+  to.putNumber(at + 88, given.predictionConfirmation ?? 0);
+  to.putNumber(at + 96, given.predictionMargin ?? 0);
+  to.putNumber(at + 104, given.predictionErrorPart ?? 0);
 }
 
 /** @internal */
-export function monitorFieldsOf(numbers: Float64Array): Required<MonitorFields> {
+export function monitorFieldsOf(from: Place): Required<MonitorFields> {
   return {
-    dimensions: numbers[0]! as 2 | 3,
-    tolerance: numbers[1]!,
-    timeResolution: numbers[2]!,
-    window: numbers[3]!,
-    staleAfter: numbers[4]!,
-    dropAfter: numbers[5]!,
-    predictionHold: numbers[6]!,
-    predictionConfirmation: numbers[7]!,
-    predictionMargin: numbers[8]!,
-    predictionErrorPart: numbers[9]!,
+    dimensions: from.word(4) as 2 | 3,
+    tolerance: from.number(40),
+    timeResolution: from.number(48),
+    window: from.number(56),
+    staleAfter: from.number(64),
+    dropAfter: from.number(72),
+    predictionHold: from.number(80),
+    predictionConfirmation: from.number(88),
+    predictionMargin: from.number(96),
+    predictionErrorPart: from.number(104),
   };
 }
 
-/** @internal Places in the table of a record, and its size. */
-export const reportAt = { trackClass: 0, timestamp: 1, timestampError: 2, state: 3, positionError: 9, velocityError:
-  12 } as const;
-/** @internal */ export const reportSize = 15;
+/** @internal Size of a ks_track_report, and offsets of its fields, in bytes. */
+export const reportAt = { size: 184, hasPlan: 4, trackClass: 8, timestamp: 16, timestampError: 24, state: 32,
+  positionError: 80, velocityError: 104, planAcceleration: 128, planLimit: 152, planValidUntil: 176 } as const;
 
 /** A reported state of a track. */
 export interface ReportFields {
@@ -522,10 +528,83 @@ export interface ReportFields {
 /** @internal */
 export const reportFieldKeys: Keys<ReportFields> = { trackClass: "number", timestamp: "number", timestampError:
   "number", positionError: true };
-/** @internal Writes the table that the module reads; what is not given has its default. */
-export function putReportFields(numbers: Float64Array, at: number, given: ReportFields, call: string): void {
-  numbers[at + 0] = whole(given.trackClass ?? 0, 2 ** 32 - 1, "trackClass", call);
-  numbers[at + 1] = given.timestamp;
-  numbers[at + 2] = given.timestampError ?? 0;
-  numbers.set(boundNumbers(given.positionError ?? 0, "positionError", call), at + 9);
+/** @internal Writes a record of zeros; what is not given has its default. */
+export function putReportFields(to: Memory, at: number, given: ReportFields, call: string): void {
+  to.putWhole(at + 8, whole(given.trackClass ?? 0, 2 ** 32 - 1, "trackClass", call));
+  to.putNumber(at + 16, given.timestamp);
+  to.putNumber(at + 24, given.timestampError ?? 0);
+  putBound(to, at + 80, given.positionError ?? 0, "positionError", call);
 }
+
+/** @internal Size of a ks_shape, and offsets of its fields, in bytes. */
+export const shapeAt = { size: 88, kind: 0, points: 8, number: 80 } as const;
+
+/** @internal Size of a ks_static_definition, and offsets of its fields, in bytes. */
+export const staticAt = { size: 136, solid: 4, sensorClass: 8, shape: 16, filter: 104, userData: 128 } as const;
+
+/** @internal Size of a ks_body_view, and offsets of its fields, in bytes. */
+export const bodyViewAt = { size: 264, enabled: 4, isStatic: 8, sleeping: 12, reportTime: 16, box: 24, boxEnd: 72,
+  image: 80, definition: 104 } as const;
+
+/** @internal Size of a ks_rigid_definition, and offsets of its fields, in bytes. */
+export const rigidAt = { size: 120, partCount: 4, parts: 8, rotation: 16, angularAccelerationLimit: 72,
+  largestAngularSpeed: 80, inertia: 88, hullCount: 112, hulls: 116 } as const;
+
+/** @internal Size of a ks_rigid_hull, and offsets of its fields, in bytes. */
+export const rigidHullAt = { size: 16, pointCount: 0, points: 4, radius: 8 } as const;
+
+/** @internal Size of a ks_sensor_overlap, and offsets of its fields, in bytes. */
+export const sensorOverlapAt = { size: 24, body: 0, distance: 16 } as const;
+
+/** @internal Size of a ks_prediction, and offsets of its fields, in bytes. */
+export const predictionAt = { size: 32, time: 0, partner: 8, wall: 20, happens: 24, probed: 28 } as const;
+
+/** @internal Size of a ks_hit, and offsets of its fields, in bytes. */
+export const hitAt = { size: 32, body: 0, certain: 12, lower: 16, upper: 24 } as const;
+
+/** @internal Size of a ks_sphere, and offsets of its fields, in bytes. */
+export const sphereAt = { size: 32, centre: 0, radius: 24 } as const;
+
+/** @internal Size of a ks_ray, and offsets of its fields, in bytes. */
+export const rayAt = { size: 64, origin: 0, direction: 24, length: 48, radius: 56 } as const;
+
+/** @internal Size of a ks_busy_body, and offsets of its fields, in bytes. */
+export const busyBodyAt = { size: 88, body: 0, reason: 12, probes: 16, touching: 24, nearOthers: 32, windows: 40,
+  changes: 48, queries: 56, contacts: 64, accelerationLimit: 72, largestAcceleration: 80 } as const;
+
+/** @internal Size of a ks_response, and offsets of its fields, in bytes. */
+export const responseAt = { size: 144, stop: 4, turnsFirst: 8, turnsSecond: 12, spinsFirst: 16, spinsSecond: 20,
+  firstAction: 24, secondAction: 28, firstVelocity: 32, secondVelocity: 56, firstAngularVelocity: 80,
+  secondAngularVelocity: 104, turnedBack: 128, setsPairState: 132, pairState: 136 } as const;
+
+/** @internal Size of a ks_roughness, and offsets of its fields, in bytes. */
+export const roughnessAt = { size: 40, restitution: 8, tangentialRestitution: 16, friction: 24, inertia: 32
+  } as const;
+
+/** @internal Size of a ks_step_potential_definition, and offsets of its fields, in bytes. */
+export const stepPotentialAt = { size: 40, count: 8, distances: 12, energies: 16, outside: 24, restitution: 32
+  } as const;
+
+/** @internal Size of a ks_run_definition, and offsets of its fields, in bytes. */
+export const runAt = { size: 40, threads: 4, restitution: 8, restingSpeed: 16, respond: 24, respondUser: 28, sink: 32,
+  sinkUser: 36 } as const;
+
+/** @internal Size of a ks_game_definition, and offsets of its fields, in bytes. */
+export const gameAt = { size: 56, gravity: 8, restitution: 32, restingSpeed: 40, respond: 48, respondUser: 52
+  } as const;
+
+/** @internal Size of a ks_event_list, and offsets of its fields, in bytes. */
+export const eventListAt = { size: 8, count: 0, events: 4 } as const;
+
+/** @internal Size of a ks_body_list, and offsets of its fields, in bytes. */
+export const bodyListAt = { size: 16, count: 0, ids: 4, positions: 8, velocities: 12 } as const;
+
+/** @internal Size of a ks_track_class, and offsets of its fields, in bytes. */
+export const classAt = { size: 72, accelerationLimit: 0, largestSpeed: 24, plannedAcceleration: 48 } as const;
+
+/** @internal Size of a ks_separation, and offsets of its fields, in bytes. */
+export const separationAt = { size: 40, shape: 0, horizontal: 8, vertical: 16, lookAhead: 24, modifiedTau: 32
+  } as const;
+
+/** @internal Size of a ks_separation_rule, and offsets of its fields, in bytes. */
+export const separationRuleAt = { size: 16, firstClass: 0, secondClass: 4, levels: 8, levelCount: 12 } as const;

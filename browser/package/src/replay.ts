@@ -1,7 +1,8 @@
 // Replays of recordings.
-import { Event } from "./event.js";
-import { Owned, theModule } from "./module.js";
+import { type Event, eventFrom, hexOf } from "./event.js";
+import { Owned, theModule, type Value } from "./module.js";
 import { requireBytes } from "./options.js";
+import { eventAt } from "./records.js";
 import { WorldView } from "./world.js";
 
 /** A recording of a world, made here or by the program (`kinesphere run --record`). */
@@ -12,33 +13,39 @@ export class Replay extends Owned {
   constructor(recording: Uint8Array) {
     const module = theModule();
     requireBytes(recording, "recording", "Replay");
-    super(module.with((scratch) =>
-      module.require(module.call("replay_open", scratch.bytes(recording), recording.length))), "replay_free");
+    super(module.with(() => module.handle("ks_replay_open", module.bytesOf(recording), recording.length, 0, 0)), "ks_replay_destroy");
     this.view = new ReplayedWorld(this);
   }
   /** Repeats the next recorded advance, and returns its event if it had one. */
   advance(): Event | null {
     const module = theModule();
-    const result = module.call("replay_advance", this.address);
-    if (result < 0) throw module.error();
-    return result === 0 ? null : new Event(module.answer());
+    return module.with(() => {
+      const at = module.record(eventAt);
+      module.check("ks_replay_advance", this.address, at);
+      return module.i32[(at + eventAt.kind) >> 2] === 0 ? null : eventFrom(module, at);
+    });
   }
   get finished(): boolean {
-    return theModule().call("replay_finished", this.address) !== 0;
+    return theModule().word("ks_replay_finished", this.address) !== 0;
   }
   /** Number of steps repeated so far, and of all steps. */
   get step(): number {
-    return theModule().call("replay_step", this.address);
+    return this.steps()[0];
   }
   get stepCount(): number {
-    return theModule().call("replay_step_count", this.address);
+    return this.steps()[1];
+  }
+  private steps(): [repeated: number, total: number] {
+    const module = theModule();
+    return module.with(() => {
+      const at = module.room(8);
+      module.check("ks_replay_steps", this.address, at, at + 4);
+      return [module.i32[at >> 2]!, module.i32[(at + 4) >> 2]!];
+    });
   }
   /** 16 hexadecimal digits of all outcomes so far: events, and the work that led to them. */
   get hash(): string {
-    const module = theModule();
-    module.call("replay_hash", this.address);
-    const [low, high] = module.answer();
-    return high!.toString(16).padStart(8, "0") + low!.toString(16).padStart(8, "0");
+    return hexOf(theModule().handle("ks_replay_hash", this.address));
   }
   /** The world after the last step. */
   get world(): WorldView {
@@ -46,15 +53,24 @@ export class Replay extends Owned {
   }
 }
 
+/** A copy of the world of a replay, which is made anew when it is looked at after another step. */
 class ReplayedWorld extends WorldView {
   readonly #replay: Replay;
+  #copy: WorldView | null = null;
+  #step = -1;
   constructor(replay: Replay) {
     super(0, "");
     this.#replay = replay;
   }
   /** @internal */
-  override get address(): number {
-    return theModule().call("replay_world", this.#replay.address);
+  override get address(): Value {
+    const { step, address } = this.#replay;
+    if (this.#copy === null || step !== this.#step) {
+      this.#copy?.free();
+      this.#copy = new WorldView(theModule().handle("ks_replay_world", address), "ks_world_destroy");
+      this.#step = step;
+    }
+    return this.#copy.address;
   }
   override free(): void {
     // The replay owns it.

@@ -1,9 +1,8 @@
-// Reports of tracks, and their tables of numbers for the module.
-import { boundKeys, boundNumbers, type ErrorBound, type ErrorBounds } from "./error_bound.js";
+// Reports of tracks.
+import { boundKeys, type ErrorBound, type ErrorBounds, putBound } from "./error_bound.js";
+import type { Module } from "./module.js";
 import { checkKeys, type Keys, requireNumbers, whole } from "./options.js";
-import {
-  putReportFields, reportAt, type ReportFields, reportFieldKeys, reportSize, type TrackId,
-} from "./records.js";
+import { putReportFields, reportAt, type ReportFields, reportFieldKeys, type TrackId } from "./records.js";
 import { countOf, each, type PerBody, type Vec3, vector } from "./state.js";
 
 /**
@@ -63,40 +62,37 @@ const reportBatchKeys: Keys<ReportBatch> = {
 };
 const planBatchKeys: Keys<PlanBatch> = { accelerations: true, accelerationLimits: true, validUntil: true };
 
-// The table that report_at() in browser/module/monitor.cpp reads: an id, the fields, and a plan.
-const fields = 1;
-const plan = fields + reportSize;
-/** Size of that table. */
-export const reportNumbers = plan + 8;
-
 export function trackId(id: TrackId, what: string, call: string): number {
   return whole(id, Number.MAX_SAFE_INTEGER, what, call);
 }
 
-export function putReport(numbers: Float64Array, at: number, report: TrackReport, call: string): void {
+/** Writes a ks_track_report over zeros. */
+export function putReport(to: Module, at: number, report: TrackReport, call: string): void {
   checkKeys(report, reportKeys, "report", call);
-  const { velocity } = report;
-  const from = at + fields;
-  putReportFields(numbers, from, report, call);
-  numbers.set(vector(report.position, "position", call), from + reportAt.state);
-  numbers.set(vector(velocity ?? [0, 0, 0], "velocity", call), from + reportAt.state + 3);
-  numbers.set(boundNumbers(report.velocityError ?? (velocity ? 0 : Infinity), "velocityError", call), from + reportAt.velocityError);
-  if (report.plan === undefined) return;
-  checkKeys(report.plan, planKeys, "plan", call);
-  numbers[at + plan] = 1;
-  numbers.set(vector(report.plan.acceleration ?? [0, 0, 0], "plan.acceleration", call), at + plan + 1);
-  numbers.set(boundNumbers(report.plan.accelerationLimit ?? 0, "plan.accelerationLimit", call), at + plan + 4);
-  numbers[at + plan + 7] = report.plan.validUntil ?? Infinity;
+  const { velocity, plan } = report;
+  to.putWord(at, reportAt.size);
+  putReportFields(to, at, report, call);
+  to.putVector(at + reportAt.state, vector(report.position, "position", call));
+  if (velocity !== undefined) to.putVector(at + reportAt.state + 24, vector(velocity, "velocity", call));
+  putBound(to, at + reportAt.velocityError, report.velocityError ?? (velocity ? 0 : Infinity), "velocityError", call);
+  if (plan === undefined) return;
+  checkKeys(plan, planKeys, "plan", call);
+  to.putWord(at + reportAt.hasPlan, 1);
+  to.putVector(at + reportAt.planAcceleration, vector(plan.acceleration ?? [0, 0, 0], "plan.acceleration", call));
+  putBound(to, at + reportAt.planLimit, plan.accelerationLimit ?? 0, "plan.accelerationLimit", call);
+  to.putNumber(at + reportAt.planValidUntil, plan.validUntil ?? Infinity);
 }
 
-/** Returns the tables of all reports of a batch. */
-export function batchNumbers(batch: ReportBatch, call: string): Float64Array {
+/** Returns the addresses of the ids and reports of a batch, and how many there are, for the duration of a call. */
+export function batchRecords(module: Module, batch: ReportBatch, call: string): [tracks: number, reports: number, count: number] {
   checkKeys(batch, reportBatchKeys, "reports", call);
   const count = countOf(batch.positions, call);
-  const numbers = new Float64Array(count * reportNumbers);
+  const { size } = reportAt;
+  const tracks = module.room(8 * count), reports = module.room(size * count);
+  module.bytes.fill(0, reports, reports + size * count);
   const column = (values: PerBody, place: number, what: string) => {
     const all = each(values, count, what, call);
-    for (let k = 0; k < count; ++k) numbers[k * reportNumbers + place] = all[k]!;
+    for (let k = 0; k < count; ++k) module.putNumber(reports + size * k + place, all[k]!);
   };
   const vectors = (values: ArrayLike<number>, place: number, what: string) => {
     if (values.length !== 3 * count)
@@ -104,32 +100,41 @@ export function batchNumbers(batch: ReportBatch, call: string): Float64Array {
         `${call}: ${what} must have three numbers for each of ${count} reports, but has ${values.length}`);
     requireNumbers(values, what, call);
     for (let k = 0; k < count; ++k)
-      for (let axis = 0; axis < 3; ++axis) numbers[k * reportNumbers + place + axis] = values[3 * k + axis]!;
+      for (let axis = 0; axis < 3; ++axis) module.putNumber(reports + size * k + place + 8 * axis, values[3 * k + axis]!);
+  };
+  const words = (value: number, place: number) => {
+    for (let k = 0; k < count; ++k) module.putWord(reports + size * k + place, value);
   };
   const bounds = (values: ErrorBounds, place: number, what: string) => {
-    if (typeof values === "number" || "length" in values) return column(values, place + 1, what);
+    if (typeof values === "number" || "length" in values) {
+      column(values, place + 8, what);
+      return column(values, place + 16, what);
+    }
     checkKeys(values, boundKeys, what, call);
-    column(1, place, what);
-    column(values.horizontal, place + 1, `${what}.horizontal`);
-    column(values.vertical, place + 2, `${what}.vertical`);
+    words(1, place);
+    column(values.horizontal, place + 8, `${what}.horizontal`);
+    column(values.vertical, place + 16, `${what}.vertical`);
   };
   const ids = each(batch.ids, count, "ids", call);
   const classes = each(batch.trackClasses ?? 0, count, "trackClasses", call);
+  words(size, 0);
   for (let k = 0; k < count; ++k) {
-    numbers[k * reportNumbers] = trackId(ids[k]!, `ids[${k}]`, call);
-    numbers[k * reportNumbers + fields + reportAt.trackClass] = whole(classes[k]!, 2 ** 32 - 1, `trackClasses[${k}]`, call);
+    module.putWhole(tracks + 8 * k, trackId(ids[k]!, `ids[${k}]`, call));
+    module.putWhole(reports + size * k + reportAt.trackClass, whole(classes[k]!, 2 ** 32 - 1, `trackClasses[${k}]`, call));
   }
-  column(batch.timestamps, fields + reportAt.timestamp, "timestamps");
-  vectors(batch.positions, fields + reportAt.state, "positions");
-  if (batch.velocities !== undefined) vectors(batch.velocities, fields + reportAt.state + 3, "velocities");
-  bounds(batch.positionErrors ?? 0, fields + reportAt.positionError, "positionErrors");
-  bounds(batch.velocityErrors ?? (batch.velocities ? 0 : Infinity), fields + reportAt.velocityError, "velocityErrors");
-  column(batch.timestampErrors ?? 0, fields + reportAt.timestampError, "timestampErrors");
-  if (batch.plans === undefined) return numbers;
-  checkKeys(batch.plans, planBatchKeys, "plans", call);
-  column(1, plan, "plans");
-  if (batch.plans.accelerations !== undefined) vectors(batch.plans.accelerations, plan + 1, "plans.accelerations");
-  bounds(batch.plans.accelerationLimits ?? 0, plan + 4, "plans.accelerationLimits");
-  column(batch.plans.validUntil ?? Infinity, plan + 7, "plans.validUntil");
-  return numbers;
+  column(batch.timestamps, reportAt.timestamp, "timestamps");
+  vectors(batch.positions, reportAt.state, "positions");
+  if (batch.velocities !== undefined) vectors(batch.velocities, reportAt.state + 24, "velocities");
+  bounds(batch.positionErrors ?? 0, reportAt.positionError, "positionErrors");
+  bounds(batch.velocityErrors ?? (batch.velocities ? 0 : Infinity), reportAt.velocityError, "velocityErrors");
+  column(batch.timestampErrors ?? 0, reportAt.timestampError, "timestampErrors");
+  if (batch.plans !== undefined) {
+    checkKeys(batch.plans, planBatchKeys, "plans", call);
+    words(1, reportAt.hasPlan);
+    if (batch.plans.accelerations !== undefined)
+      vectors(batch.plans.accelerations, reportAt.planAcceleration, "plans.accelerations");
+    bounds(batch.plans.accelerationLimits ?? 0, reportAt.planLimit, "plans.accelerationLimits");
+    column(batch.plans.validUntil ?? Infinity, reportAt.planValidUntil, "plans.validUntil");
+  }
+  return [tracks, reports, count];
 }

@@ -1,8 +1,9 @@
 // Responses of two bodies to an event: bounces, and potentials of steps.
 import type { Answer } from "./asking.js";
 import { Event } from "./event.js";
-import { Owned, theModule } from "./module.js";
+import { Block, type Module, Owned, theModule } from "./module.js";
 import { checkKeys, type Keys, requireNumbers, shown } from "./options.js";
+import { eventAt, responseAt, roughnessAt, stepPotentialAt } from "./records.js";
 import type { Vec3 } from "./state.js";
 import type { WorldView } from "./world.js";
 
@@ -32,8 +33,8 @@ export interface Roughness {
 
 const roughKeys: Keys<Roughness> = { tangentialRestitution: "number", friction: "number", inertia: "number" };
 
-/** Returns the numbers that bounce_roughly() of the module reads. Throws RangeError for numbers out of range. */
-export function roughNumbers(rough: Roughness, call: string): [number, number, number] {
+/** Writes a ks_roughness. Throws RangeError for numbers out of range. */
+function putRoughness(to: Module, at: number, restitution: number, rough: Roughness, call: string): void {
   checkKeys(rough, roughKeys, "roughness", call);
   const { tangentialRestitution = 1, friction = Infinity, inertia = 0.4 } = rough;
   if (!(Math.abs(tangentialRestitution) <= 1))
@@ -41,7 +42,17 @@ export function roughNumbers(rough: Roughness, call: string): [number, number, n
   if (!(friction >= 0)) throw new RangeError(`${call}: roughness.friction must be >= 0, but is ${friction}`);
   if (!(inertia > 0 && inertia < Infinity))
     throw new RangeError(`${call}: roughness.inertia must be > 0 and finite, but is ${inertia}`);
-  return [tangentialRestitution, friction, inertia];
+  to.putWord(at, roughnessAt.size);
+  to.putNumber(at + roughnessAt.restitution, restitution);
+  to.putNumber(at + roughnessAt.tangentialRestitution, tangentialRestitution);
+  to.putNumber(at + roughnessAt.friction, friction);
+  to.putNumber(at + roughnessAt.inertia, inertia);
+}
+/** Returns a ks_roughness that stays. */
+export function roughBlock(module: Module, restitution: number, rough: Roughness, call: string): Block {
+  const block = new Block(roughnessAt.size);
+  putRoughness(module, block.address, restitution, rough, call);
+  return block;
 }
 
 /** Arguments of `bounce` and `settle` besides the contact. */
@@ -93,23 +104,34 @@ export function bounce(contact: Event, options: BounceOptions = {}): Bounce {
   checkBounce(options, "bounce");
   const { firstMass = contact.firstMass, secondMass = contact.secondMass, restitution = 1, restingSpeed = 0 } = options;
   const module = theModule();
-  return module.with((scratch) => {
-    const event = scratch.numbers(contact.numbers);
-    const room = scratch.room(12);
-    if (options.roughness !== undefined)
-      module.call("event_bounce_rough", event, restitution, ...roughNumbers(options.roughness, "bounce"), room);
-    else
-      module.call("event_bounce", event, firstMass, secondMass, restitution, restingSpeed, room);
-    const velocities = module.numbersAt(room, 12).slice();
-    const turns = (gain: Float64Array) => options.roughness !== undefined || gain.some((part) => part !== 0);
+  return module.with(() => {
+    const event = eventRecord(module, contact);
+    const at = module.record(responseAt);
+    if (options.roughness !== undefined) {
+      const rough = module.record(roughnessAt);
+      putRoughness(module, rough, restitution, options.roughness, "bounce");
+      module.check("ks_bounce_rough", event, rough, at);
+    } else {
+      module.putNumber(event + eventAt.firstMass, firstMass);
+      module.putNumber(event + eventAt.secondMass, secondMass);
+      module.check("ks_bounce", event, restitution, restingSpeed, at);
+    }
+    const from = module.copy(at, responseAt.size);
+    // A body that is not turned keeps its velocity.
+    const after = (turns: number, velocity: number, before: Vec3) => (from.word(turns) ? from.vector(velocity) : before);
     return {
       [bounced]: true,
-      first: velocities.subarray(0, 3),
-      second: velocities.subarray(3, 6),
-      ...(turns(contact.firstSpinGain) ? { firstAngularVelocity: velocities.subarray(6, 9) } : {}),
-      ...(turns(contact.secondSpinGain) ? { secondAngularVelocity: velocities.subarray(9, 12) } : {}),
+      first: after(responseAt.turnsFirst, responseAt.firstVelocity, contact.firstState.velocity),
+      second: after(responseAt.turnsSecond, responseAt.secondVelocity, contact.secondState.velocity),
+      ...(from.word(responseAt.spinsFirst) ? { firstAngularVelocity: from.vector(responseAt.firstAngularVelocity) } : {}),
+      ...(from.word(responseAt.spinsSecond) ? { secondAngularVelocity: from.vector(responseAt.secondAngularVelocity) } : {}),
     };
   });
+}
+
+/** Returns the address of a copy of an event, for the duration of a call. */
+export function eventRecord(module: Module, { numbers, from }: Event): number {
+  return module.numbers(numbers.subarray(from >> 3, (from + eventAt.size) >> 3));
 }
 
 /** The energy of a pair, as a function of the gap between its surfaces (kinesphere/step_potential.hpp). */
@@ -143,27 +165,42 @@ export class StepPotential extends Owned {
     if (energies.length !== distances.length)
       throw new RangeError(`${call}: energies must be as many as distances, ${distances.length}, but are ${energies.length}`);
     const module = theModule();
-    super(module.with((scratch) => module.require(module.call(
-      "potential_create", world.address, distances.length, scratch.numbers(distances), scratch.numbers(energies), outside,
-      restitution))), "potential_free");
+    const potential = module.with(() => {
+      const at = module.record(stepPotentialAt);
+      module.putWord(at + stepPotentialAt.count, distances.length);
+      module.putWord(at + stepPotentialAt.distances, module.numbers(distances));
+      module.putWord(at + stepPotentialAt.energies, module.numbers(energies));
+      module.putNumber(at + stepPotentialAt.outside, outside);
+      module.putNumber(at + stepPotentialAt.restitution, restitution);
+      return module.handle("ks_step_potential_create", world.address, at);
+    });
+    const block = new Block(8, "ks_step_potential_destroy", potential);
+    module.u64[block.address >> 3] = potential;
+    super(block.address, "");
+    this.block = block;
   }
+  /** @internal Runs and games that have it keep this. */
+  readonly block: Block;
   /** At a step the two gain or lose what their energy changes by, or are turned back; at a contact they bounce. */
   respond(event: Event): Answer {
     if (!(event instanceof Event)) throw new TypeError(`respond: event must be an Event, but is ${shown(event)}`);
     const module = theModule();
-    return module.with((scratch) => {
-      const room = scratch.numbers(new Float64Array(22));
-      module.call("potential_respond", this.address, scratch.numbers(event.numbers), room);
-      const numbers = module.numbersAt(room, 22).slice();
+    return module.with(() => {
+      const at = module.record(responseAt);
+      module.check("ks_step_potential_respond", this.potential, eventRecord(module, event), at);
+      const from = module.copy(at, responseAt.size);
       return {
-        ...(numbers[3] === 1 ? { first: numbers.subarray(0, 3) } : {}),
-        ...(numbers[7] === 1 ? { second: numbers.subarray(4, 7) } : {}),
-        ...(numbers[19] === 1 ? { turnedBack: true } : {}),
+        ...(from.word(responseAt.turnsFirst) ? { first: from.vector(responseAt.firstVelocity) } : {}),
+        ...(from.word(responseAt.turnsSecond) ? { second: from.vector(responseAt.secondVelocity) } : {}),
+        ...(from.word(responseAt.turnedBack) ? { turnedBack: true } : {}),
       };
     });
   }
   /** Returns the potential energy of a pair with this gap (length). */
   energy(gap: number): number {
-    return theModule().call("potential_energy", this.address, gap);
+    return theModule().number("ks_step_potential_energy", this.potential, gap);
+  }
+  private get potential(): bigint {
+    return theModule().u64[Number(this.address) >> 3]!;
   }
 }

@@ -1,8 +1,8 @@
 // Rigid bodies: balls, capsules, boxes and convex hulls that move and turn together.
-import { movedKeys, type MovedOptions, type ShapeCarrier, shapeCarrierKeys } from "./body.js";
-import type { Scratch } from "./module.js";
+import { bodyRecord, movedKeys, type MovedOptions, type ShapeCarrier, shapeCarrierKeys } from "./body.js";
+import type { Module } from "./module.js";
 import { checkKeys, type Keys, requireNumbers, shown } from "./options.js";
-import { bodySize, putBodyFields } from "./records.js";
+import { rigidAt, rigidHullAt } from "./records.js";
 import { type Vec3, vector } from "./state.js";
 
 /** A rotation as a unit quaternion w, x, y, z. */
@@ -81,30 +81,37 @@ export function rotationFrom(numbers: Float64Array): Rotation {
   return { orientation: numbers.subarray(0, 4), angularVelocity: numbers.subarray(4, 7) };
 }
 
-/** Returns what part_at() in browser/module/rigid_bodies.cpp reads. */
-function partNumbers(part: RigidPart, call: string): number[] {
+/** Returns the corners of a box, each once, in the order of box_part() in kinesphere/rigid_body.hpp. */
+function cornersOf(lower: number[], upper: number[]): number[][] {
+  let corners = [lower];
+  for (const axis of [0, 1, 2])
+    if (lower[axis] !== upper[axis]) corners = [...corners, ...corners.map((corner) => corner.map((x, k) => (k === axis ? upper[axis]! : x)))];
+  return corners;
+}
+
+/** Returns the radius and the points of the hull that a part is. */
+function hullOf(part: RigidPart, call: string): [radius: number, points: number[][]] {
   checkKeys<AnyPart>(part, partKeys, "part", call);
-  const numbers = (kind: 0 | 1, radius: number, points: number[][]) => [kind, radius, points.length, ...points.flat()];
   if ("ball" in part) {
     checkKeys(part.ball, ballKeys, "ball", call);
-    return numbers(0, part.ball.radius, [vector(part.ball.centre, "centre", call)]);
+    return [part.ball.radius, [vector(part.ball.centre, "centre", call)]];
   }
   if ("capsule" in part) {
     checkKeys(part.capsule, capsuleKeys, "capsule", call);
     const { a, b, radius } = part.capsule;
-    return numbers(0, radius, [vector(a, "a", call), vector(b, "b", call)]);
+    return [radius, [vector(a, "a", call), vector(b, "b", call)]];
   }
   if ("hull" in part) {
     checkKeys(part.hull, hullKeys, "hull", call);
     const { points, radius = 0 } = part.hull;
     if (!Array.isArray(points) || points.length === 0)
       throw new TypeError(`${call}: hull must have points, an array of one to 64`);
-    return numbers(0, radius, points.map((point: Vec3) => vector(point, "point", call)));
+    return [radius, points.map((point: Vec3) => vector(point, "point", call))];
   }
   if (!("box" in part)) throw new TypeError(`${call}: part must be a ball, a capsule, a hull or a box`);
   checkKeys(part.box, boxKeys, "box", call);
   const { lower, upper, radius = 0 } = part.box;
-  return numbers(1, radius, [vector(lower, "lower", call), vector(upper, "upper", call)]);
+  return [radius, cornersOf(vector(lower, "lower", call), vector(upper, "upper", call))];
 }
 
 /** Reads the answer of world_parts_of(). A box comes as the hull of its corners. */
@@ -123,30 +130,39 @@ export function partsFrom(numbers: Float64Array): RigidPart[] {
   return parts;
 }
 
-/** Returns the arguments that rigid_body_at() in browser/module/rigid_bodies.cpp reads. */
-export function rigidArguments(
-  scratch: Scratch, parts: readonly RigidPart[], body: RigidBodyDefinition, call: string,
-): [body: number, rigid: number, count: number, parts: number] {
+/** Returns the addresses of a ks_body_definition and a ks_rigid_definition, whose parts are hulls, in their order. */
+export function rigidRecords(
+  module: Module, parts: readonly RigidPart[], body: RigidBodyDefinition, call: string,
+): [body: number, rigid: number] {
   checkKeys(body, rigidBodyKeys, "body", call);
   if (!Array.isArray(parts)) throw new TypeError(`${call}: parts must be an array, but is ${shown(parts)}`);
   const {
     orientation = [1, 0, 0, 0], angularVelocity = [0, 0, 0], angularAccelerationLimit = 0, largestAngularSpeed = Infinity,
     inertia = [0, 0, 0], ...rest
   } = body;
-  const numbers = new Float64Array(bodySize);
-  putBodyFields(numbers, 0, rest, call);
-  const rigid = [
-    ...numbersOfRotation({ orientation, angularVelocity }, call), angularAccelerationLimit, largestAngularSpeed,
-    ...vector(inertia, "inertia", call),
-  ];
-  return [scratch.numbers(numbers), scratch.numbers(rigid), parts.length,
-          scratch.numbers(parts.flatMap((part) => partNumbers(part, call)))];
+  const record = bodyRecord(module, rest, call);
+  const at = module.record(rigidAt);
+  module.putVector(at + rigidAt.rotation, numbersOfRotation({ orientation, angularVelocity }, call));
+  module.putNumber(at + rigidAt.angularAccelerationLimit, angularAccelerationLimit);
+  module.putNumber(at + rigidAt.largestAngularSpeed, largestAngularSpeed);
+  module.putVector(at + rigidAt.inertia, vector(inertia, "inertia", call));
+  const hulls = parts.map((part) => hullOf(part, call));
+  const first = module.room(rigidHullAt.size * hulls.length);
+  for (const [k, [radius, points]] of hulls.entries()) {
+    const hull = first + rigidHullAt.size * k;
+    module.putWord(hull + rigidHullAt.pointCount, points.length);
+    module.putWord(hull + rigidHullAt.points, module.numbers(points.flat()));
+    module.putNumber(hull + rigidHullAt.radius, radius);
+  }
+  module.putWord(at + rigidAt.hullCount, hulls.length);
+  module.putWord(at + rigidAt.hulls, first);
+  return [record, at];
 }
 
-/** The same for a body whose state and limits come from a motion. */
-export function movedRigidArguments(
-  scratch: Scratch, parts: readonly RigidPart[], body: MovedRigidBodyDefinition, call: string,
-): [body: number, rigid: number, count: number, parts: number] {
+/** Does the same for a body whose state and limits come from a motion. */
+export function movedRigidRecords(
+  module: Module, parts: readonly RigidPart[], body: MovedRigidBodyDefinition, call: string,
+): [body: number, rigid: number] {
   checkKeys(body, movedRigidBodyKeys, "body", call);
-  return rigidArguments(scratch, parts, { ...body, position: [0, 0, 0] }, call);
+  return rigidRecords(module, parts, { ...body, position: [0, 0, 0] }, call);
 }

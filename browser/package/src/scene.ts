@@ -1,5 +1,5 @@
 // The built-in scenes of the program `kinesphere`, with equal events, to the last bit.
-import { type Definition, definitionAt } from "./definition.js";
+import { type Definition, definitionOf } from "./definition.js";
 import { Owned, theModule } from "./module.js";
 import { Made, Motion } from "./motion.js";
 import { checkKeys, type Keys } from "./options.js";
@@ -54,9 +54,8 @@ export class Scene extends Owned {
         throw new RangeError(`Scene: ${key} must be a whole number from 0 to 2^32 - 1, but is ${value}`);
     }
     const module = theModule();
-    super(module.with((scratch) =>
-      module.require(module.call("scene_create", place, scratch.numbers(sceneSettings.map((key) => settings[key] ?? NaN))))),
-      "scene_free");
+    super(module.with(() =>
+      module.word("scene_create", place, module.numbers(sceneSettings.map((key) => settings[key] ?? NaN)))), "scene_free");
   }
 
   get endTime(): number {
@@ -64,14 +63,11 @@ export class Scene extends Owned {
   }
   /** Radius of each body. */
   get radii(): Float64Array {
-    const module = theModule();
-    module.call("scene_radii", this.address);
-    return module.answer();
+    return theModule().answer("scene_radii", this.address);
   }
   /** The definition of the scene's world. */
   get definition(): Definition {
-    const module = theModule();
-    return definitionAt(module, module.call("scene_world", this.address));
+    return definitionOf(theModule(), "scene_definition", this.address);
   }
   /** Returns a new motion of the bodies from the start. */
   motion(): Motion {

@@ -1,28 +1,31 @@
 // The world: moving spheres with unknown trajectories, and every contact among them, in time order.
 import {
-  type AnswerOptions, answerKeys, type Limits, noProbe, type PairOptions, pairKeys, queryNumbers, type QueryOptions,
+  type AnswerOptions, answerKeys, type Limits, type PairOptions, pairKeys, type QueriesOptions, queriesKeys, queryKeys,
+  type QueryOptions,
 } from "./answers.js";
-import { asking, moving, type Probe, responded, runKeys, type RunOptions } from "./asking.js";
+import { answeringOf, answeringRecord, type Probe, rotating, runKeys, type RunOptions, withProbe } from "./asking.js";
 import {
-  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, limitKeys, movedKeys, type MovedOptions, type Shape,
-  type ShapeCarrier, shapeCarrierKeys, shapeFrom, shapeNumbers, staticKeys, type StaticOptions, zoneKeys, type ZoneOptions,
+  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyRecord, limitKeys, movedKeys, type MovedOptions,
+  type Shape, type ShapeCarrier, shapeCarrierKeys, shapeFrom, staticKeys, type StaticOptions, withShape, zoneKeys,
+  type ZoneOptions,
 } from "./body.js";
 import { BodyMap } from "./body_map.js";
+import { type Box, boxKeys, type Definition, definitionOf, definitionRecord, type WorldDefinition } from "./definition.js";
+import { type Event, eventFrom, Events } from "./event.js";
+import { type Filter, filterArguments, filterFrom, keptFilter, maskNumber, type PairFilter, putFilter } from "./filter.js";
+import { type Kept, type Module, Owned, theModule, type Value } from "./module.js";
+import { Place } from "./memory.js";
+import { Motion } from "./motion.js";
+import { checkKeys, numberOf, refusePromise, requireBytes, requireNumbers, whole } from "./options.js";
 import {
-  type Box, boxKeys, type Definition, definitionAt, definitionNumbers, type WorldDefinition,
-} from "./definition.js";
-import { Event, Events } from "./event.js";
-import { type Filter, filterFrom, filterNumbers, maskNumber, type PairFilter } from "./filter.js";
-import { type KeptFilter, Owned, type Scratch, theModule } from "./module.js";
-import { Motion, type MotionDefinition } from "./motion.js";
-import { checkKeys, requireBytes, requireNumbers, shown, whole } from "./options.js";
-import {
-  bodyAt, bodySize, type EventKind, eventKinds, type MotionLimits, motionLimitsSize, type ProbeReason, probeReasons, putBodyFields,
-  putMotionLimits, type Wall, wallOf,
+  bodyAt, bodyViewAt, busyBodyAt, eventAt, type EventKind, eventKinds, eventListAt, hitAt, type MotionLimits,
+  motionLimitsAt, predictionAt, type ProbeReason, probeReasons, putMotionLimits, rayAt, runAt, sensorOverlapAt, shapeAt,
+  sphereAt, staticAt, type Wall, wallOf,
 } from "./records.js";
+import { eventRecord } from "./response.js";
 import {
-  numbersOfRotation, partsFrom, rigidArguments, type RigidBodyDefinition, type RigidPart, type Rotation, rotationFrom,
-  type RotationProbeFunction,
+  numbersOfRotation, partsFrom, type RigidBodyDefinition, type RigidPart, rigidRecords, type Rotation, rotationFrom,
+  rotationNumbers, type RotationProbeFunction,
 } from "./rigid_body.js";
 import {
   type BodyId, countOf, each, pairStateOf, type PerBody, requireAsMany, sixOf, type State, type Vec3, vector,
@@ -115,31 +118,35 @@ export interface BusyBody {
   largestAcceleration: number;
 }
 
-const viewNumbers = 34;
-const busyNumbers = 11;
+/** What world_views() in browser/module/looking.cpp writes: a ks_body_view, and five numbers. */
+const viewAt = { size: bodyViewAt.size + 40, centre: bodyViewAt.size, boundRadius: bodyViewAt.size + 24, isRigid: bodyViewAt.size + 32 };
+/** The definition in a ks_body_view. */
+const definitionAt = (field: keyof typeof bodyAt) => bodyViewAt.definition + bodyAt[field];
 
 /** Read access to a world, which may be that of a replay. */
 export class WorldView extends Owned {
+  /** @internal */
+  constructor(address: Value, free: string) {
+    super(address, free);
+  }
   get time(): number {
-    return theModule().call("world_time", this.address);
+    return theModule().number("ks_world_time", this.address);
   }
   /** Number of bodies. */
   get size(): number {
-    return theModule().call("world_size", this.address);
+    return theModule().word("ks_world_size", this.address);
   }
   get definition(): Definition {
-    const module = theModule();
-    return definitionAt(module, module.call("world_definition", this.address));
+    return definitionOf(theModule(), "world_definition", this.address);
   }
   /** True if this world issued the id and the body has not been removed. */
   contains(body: BodyId): boolean {
-    return theModule().call("world_contains", this.address, body) !== 0;
+    const module = theModule();
+    return module.with(() => module.word("ks_world_contains", this.address, module.id(body, "contains"))) !== 0;
   }
   /** Returns all present bodies, by index. */
   bodies(): Float64Array {
-    const module = theModule();
-    module.call("world_bodies", this.address);
-    return module.answer();
+    return this.filledIds("ks_world_bodies");
   }
   /** What the world knows of a body now. */
   body(id: BodyId): BodyView {
@@ -147,34 +154,36 @@ export class WorldView extends Owned {
   }
   /** Without `ids`, for all bodies. */
   bodyViews(ids: ArrayLike<number> = this.bodies()): BodyView[] {
-    requireNumbers(ids, "ids", "bodyViews");
+    const call = "bodyViews";
+    requireNumbers(ids, "ids", call);
     const module = theModule();
-    const all = module.with((scratch) => {
-      module.require(module.call("world_views", this.address, ids.length, scratch.numbers(ids)));
-      return module.answer();
+    const all = module.with(() => {
+      const views = module.room(viewAt.size * ids.length);
+      module.check("world_views", this.address, ids.length, module.ids(ids, call), views);
+      return module.copy(views, viewAt.size * ids.length);
     });
     return Array.from(ids, (id, k) => {
-      const numbers = all.subarray(k * viewNumbers, (k + 1) * viewNumbers);
+      const view = new Place(all.numbers, all.words, viewAt.size * k);
       return {
         id,
-        centre: numbers.subarray(0, 3),
-        boundRadius: numbers[3]!,
-        radius: numbers[4]!,
-        reportTime: numbers[5]!,
-        reported: { position: numbers.subarray(6, 9), velocity: numbers.subarray(9, 12) },
-        box: { lower: numbers.subarray(12, 15), upper: numbers.subarray(15, 18) },
-        boxEnd: numbers[18]!,
-        enabled: numbers[19] === 1,
-        isStatic: numbers[20] === 1,
-        sleeping: numbers[21] === 1,
-        accelerationLimit: numbers[22]!,
-        sensorClass: numbers[23]!,
-        userData: numbers[24]!,
-        image: numbers.subarray(25, 28),
-        solid: numbers[28] === 1,
-        mass: numbers[29]!,
-        filter: filterFrom(numbers, 30),
-        isRigid: numbers[33] === 1,
+        centre: view.vector(viewAt.centre),
+        boundRadius: view.number(viewAt.boundRadius),
+        radius: view.number(definitionAt("radius")),
+        reportTime: view.number(bodyViewAt.reportTime),
+        reported: view.state(definitionAt("position")),
+        box: { lower: view.vector(bodyViewAt.box), upper: view.vector(bodyViewAt.box + 24) },
+        boxEnd: view.number(bodyViewAt.boxEnd),
+        enabled: view.word(bodyViewAt.enabled) !== 0,
+        isStatic: view.word(bodyViewAt.isStatic) !== 0,
+        sleeping: view.word(bodyViewAt.sleeping) !== 0,
+        accelerationLimit: view.number(definitionAt("accelerationLimit")),
+        sensorClass: view.word(definitionAt("sensorClass")),
+        userData: view.whole(definitionAt("userData")),
+        image: Float64Array.of(view.signed(bodyViewAt.image), view.signed(bodyViewAt.image + 8), view.signed(bodyViewAt.image + 16)),
+        solid: view.word(definitionAt("solid")) !== 0,
+        mass: view.number(definitionAt("mass")),
+        filter: filterFrom(view, definitionAt("filter")),
+        isRigid: view.number(viewAt.isRigid) !== 0,
       };
     });
   }
@@ -183,39 +192,45 @@ export class WorldView extends Owned {
    * the position of its last report.
    */
   shapeOf(body: BodyId): Shape {
-    const module = theModule();
-    module.require(module.call("world_shape_of", this.address, body));
-    return shapeFrom(Array.from(module.answer()));
+    return shapeFrom(Array.from(this.told("world_shape_of", body, "shapeOf")));
   }
   /** Returns the rotation of a rigid body at its last report. */
   rotation(body: BodyId): Rotation {
     const module = theModule();
-    module.require(module.call("world_rotation", this.address, body));
-    return rotationFrom(module.answer());
+    return module.with(() => {
+      const at = module.room(8 * rotationNumbers);
+      module.check("ks_world_rotation", this.address, module.id(body, "rotation"), at);
+      return rotationFrom(module.numbersAt(at, rotationNumbers));
+    });
   }
   /** Returns the parts of a rigid body, as it was added. */
   partsOf(body: BodyId): RigidPart[] {
-    const module = theModule();
-    module.require(module.call("world_parts_of", this.address, body));
-    return partsFrom(module.answer());
+    return partsFrom(this.told("world_parts_of", body, "partsOf"));
   }
   /** Returns the bodies that the body touches, in order of their begins. */
   touching(body: BodyId): Float64Array {
-    const module = theModule();
-    module.require(module.call("world_touching", this.address, body));
-    return module.answer();
+    return this.filledIds("ks_world_touching", body);
   }
   /** Returns the sensor distances that the body is within, by partner, and for each from the largest to the smallest. */
   sensorOverlaps(body: BodyId): { body: BodyId; distance: number }[] {
     const module = theModule();
-    module.require(module.call("world_sensor_overlaps", this.address, body));
-    const numbers = module.answer();
-    return Array.from({ length: numbers.length / 2 }, (_, k) => ({ body: numbers[2 * k]!, distance: numbers[2 * k + 1]! }));
+    return module.with(() => rows(
+      module, module.fill(sensorOverlapAt.size, "ks_world_sensor_overlaps", this.address, module.id(body, "sensorOverlaps")),
+      sensorOverlapAt.size, (row) => ({ body: row.id(sensorOverlapAt.body), distance: row.number(sensorOverlapAt.distance) })));
+  }
+  private told(name: string, body: BodyId, call: string): Float64Array {
+    const module = theModule();
+    return module.with(() => module.answer(name, this.address, module.id(body, call)));
+  }
+  private filledIds(name: string, body?: BodyId): Float64Array {
+    const module = theModule();
+    return module.with(() => {
+      const of = body === undefined ? [] : [module.id(body, "touching")];
+      return module.idsAt(...module.fill(12, name, this.address, ...of));
+    });
   }
   get counters(): Counters {
-    const module = theModule();
-    module.call("world_counters", this.address);
-    const numbers = module.answer();
+    const numbers = theModule().answer("world_counters", this.address);
     const after = eventKinds.length;
     return {
       events: Object.fromEntries(eventKinds.map((kind, k) => [kind, numbers[k]!])) as Record<EventKind, number>,
@@ -240,38 +255,33 @@ export class WorldView extends Owned {
    */
   busiest(count = 10): BusyBody[] {
     const module = theModule();
-    module.require(module.call("world_busiest", this.address, whole(count, 2 ** 32 - 1, "count", "busiest")));
-    const all = module.answer();
-    return Array.from({ length: all.length / busyNumbers }, (_, k) => {
-      const numbers = all.subarray(k * busyNumbers, (k + 1) * busyNumbers);
-      module.call("advice", numbers[1]!);
-      return {
-        body: numbers[0]!,
-        reason: probeReasons[numbers[1]!]!,
-        advice: module.textOfBytes(),
-        probes: numbers[2]!,
-        touching: numbers[3]!,
-        near: numbers[4]!,
-        windows: numbers[5]!,
-        changes: numbers[6]!,
-        queries: numbers[7]!,
-        contacts: numbers[8]!,
-        accelerationLimit: numbers[9]!,
-        largestAcceleration: numbers[10]!,
-      };
-    });
+    const most = whole(count, 2 ** 32 - 1, "count", "busiest");
+    return module.with(() => rows(
+      module, module.fill(busyBodyAt.size, "ks_world_busiest", this.address, most), busyBodyAt.size, (row) => {
+        const reason = row.word(busyBodyAt.reason);
+        return {
+          body: row.id(busyBodyAt.body),
+          reason: probeReasons[reason]!,
+          advice: module.text(module.call("ks_probe_reason_advice", reason)),
+          probes: row.whole(busyBodyAt.probes),
+          touching: row.whole(busyBodyAt.touching),
+          near: row.whole(busyBodyAt.nearOthers),
+          windows: row.whole(busyBodyAt.windows),
+          changes: row.whole(busyBodyAt.changes),
+          queries: row.whole(busyBodyAt.queries),
+          contacts: row.whole(busyBodyAt.contacts),
+          accelerationLimit: row.number(busyBodyAt.accelerationLimit),
+          largestAcceleration: row.number(busyBodyAt.largestAcceleration),
+        };
+      }));
   }
   /** Returns three numbers for each certificate: two ids, -1 for the walls, and its failure time. */
   certificates(): Float64Array {
-    const module = theModule();
-    module.call("world_certificates", this.address);
-    return module.answer();
+    return theModule().answer("world_certificates", this.address);
   }
   /** Returns seven numbers for each occupied cell: two corners, and the number of bodies. */
   cells(): Float64Array {
-    const module = theModule();
-    module.call("world_cells", this.address);
-    return module.answer();
+    return theModule().answer("world_cells", this.address);
   }
 
   // Predictions and queries. They answer from what the world knows; with a probe in the options, as well as fresh reports
@@ -288,142 +298,264 @@ export class WorldView extends Owned {
     const call = "safeUntil";
     if (typeof first === "object") {
       checkKeys(first, answerKeys, "options", call);
-      return this.earliest("world_safe_until", call, first).time;
+      return this.earliest("ks_world_safe_until", call, first, []).time;
     }
     checkKeys(options, pairKeys, "options", call);
-    return this.earliest("world_safe_until_of_pair", call, options, first, second!, options.distance ?? NaN).time;
+    const [name, more] = options.distance === undefined ? ["world_pair_safe_until", []] as const
+      : ["ks_world_pair_safe_until", [options.distance]] as const;
+    return this.earliest(name, call, options, [first, second!], ...more).time;
   }
   /** Returns the first possible contact of the body. */
   earliestContact(body: BodyId, options: AnswerOptions = {}): Earliest {
     checkKeys(options, answerKeys, "options", "earliestContact");
-    return this.earliest("world_earliest_contact", "earliestContact", options, body);
+    return this.earliest("ks_world_earliest_contact", "earliestContact", options, [body]);
   }
   /**
    * Returns the first time at which another body may be within `distance` (length >= 0) of the body, between surfaces.
    */
   earliestApproach(body: BodyId, distance: number, options: AnswerOptions = {}): Earliest {
     checkKeys(options, answerKeys, "options", "earliestApproach");
-    return this.earliest("world_earliest_approach", "earliestApproach", options, body, distance);
+    return this.earliest("ks_world_earliest_approach", "earliestApproach", options, [body], distance);
   }
   /** Returns limits of the distance between the surfaces of two bodies now or at a later time; negative where they overlap. */
   distanceLimits(first: BodyId, second: BodyId, time = this.time, options: AnswerOptions = {}): Limits {
     checkKeys(options, answerKeys, "options", "distanceLimits");
-    const [lower, upper] = this.ask("world_distance_limits", "distanceLimits", options.probe, first, second, time);
-    return { lower: lower!, upper: upper! };
+    const call = "distanceLimits";
+    const module = theModule();
+    return module.with(() => {
+      const at = module.room(16);
+      const bodies = [module.id(first, call), module.id(second, call)];
+      this.asked(options.probe, call, (...probe) =>
+        module.check("ks_world_distance_limits", this.address, ...bodies, time, ...probe, at, at + 8));
+      return { lower: module.f64[at >> 3]!, upper: module.f64[(at + 8) >> 3]! };
+    });
   }
   /** Returns all bodies that may be among the `count` nearest to a point. */
   nearest(point: Vec3, count: number, options: QueryOptions = {}): Located[] {
     const call = "nearest";
-    return this.located("world_nearest", call, options, [vector(point, "point", call)],
-                        whole(count, 2 ** 32 - 1, "count", call));
+    const bodies = whole(count, 2 ** 32 - 1, "count", call);
+    return this.query({ call, one: "ks_world_nearest", all: "ks_world_nearest_all", options, before: [bodies] },
+                      vector(point, "point", call), located);
   }
   /** Returns all bodies that may be the first on a way. */
   rayCast(origin: Vec3, direction: Vec3, length: number, options: QueryOptions = {}): Located[] {
-    const call = "rayCast";
-    return this.located("world_ray_cast", call, options,
-                        [vector(origin, "origin", call), vector(direction, "direction", call)], length);
+    return this.cast(origin, direction, length, 0, "rayCast", options);
   }
   /** Returns all bodies that a sphere of this radius may hit first on its way. */
   sphereCast(origin: Vec3, radius: number, direction: Vec3, length: number, options: QueryOptions = {}): Located[] {
-    const call = "sphereCast";
-    return this.located("world_sphere_cast", call, options,
-                        [vector(origin, "origin", call), vector(direction, "direction", call)], length, radius);
+    return this.cast(origin, direction, length, radius, "sphereCast", options);
   }
   /** Returns the bodies that may overlap a sphere. */
   overlapping(centre: Vec3, radius: number, options: QueryOptions = {}): Certain[] {
     const call = "overlapping";
-    return this.overlaps("world_overlapping", call, options, vector(centre, "centre", call), radius);
+    const sphere = [...vector(centre, "centre", call), numberOf(radius, "radius", call)];
+    return this.query({ call, one: "ks_world_overlapping_sphere", all: "ks_world_overlapping_all", options }, sphere, certain);
   }
   /** Returns the bodies that may overlap a box. */
   overlappingBox(box: Box, options: QueryOptions = {}): Certain[] {
     const call = "overlappingBox";
     checkKeys(box, boxKeys, "box", call);
-    return this.overlaps("world_overlapping_box", call, options,
-                         [...vector(box.lower, "box.lower", call), ...vector(box.upper, "box.upper", call)]);
+    checkKeys(options, queryKeys, "options", call);
+    const corners = [...vector(box.lower, "box.lower", call), ...vector(box.upper, "box.upper", call)];
+    const module = theModule();
+    return module.with(() => {
+      const values = [module.numbers(corners), module.id(options.except ?? -1, call), filterRecord(module, options.filter, call)];
+      const found = this.asked(options.probe, call, (...probe) =>
+        module.answer("world_overlapping_box", this.address, ...values, ...probe));
+      return Array.from({ length: found.length / 2 }, (_, k) => ({ body: found[2 * k]!, certainly: found[2 * k + 1] === 1 }));
+    });
+  }
+
+  // Many queries at once: with a probe, one call of it serves all that are open.
+
+  /** Returns for each point, three numbers in `points`, what nearest() does. */
+  nearestAll(points: ArrayLike<number>, count: number, options: QueriesOptions = {}): Located[][] {
+    const call = "nearestAll";
+    const bodies = whole(count, 2 ** 32 - 1, "count", call);
+    const queries = columns(call, ["points", points, 3]);
+    return this.queries("ks_world_nearest_all", call, queries, 3, options, located, bodies);
+  }
+  /**
+   * Returns for each ray what rayCast() does or, with radii, sphereCast(): three numbers each in `origins` and in
+   * `directions`.
+   */
+  rayCastAll(
+    origins: ArrayLike<number>, directions: ArrayLike<number>, lengths: PerBody, options: QueriesOptions = {},
+    radii: PerBody = 0,
+  ): Located[][] {
+    const call = "rayCastAll";
+    const rays = columns(call, ["origins", origins, 3], ["directions", directions, 3], ["lengths", lengths, 1], ["radii", radii, 1]);
+    return this.queries("ks_world_cast_all", call, rays, rayAt.size / 8, options, located);
+  }
+  /** Returns for each sphere, three numbers in `centres` and a radius, what overlapping() does. */
+  overlappingAll(centres: ArrayLike<number>, radii: PerBody, options: QueriesOptions = {}): Certain[][] {
+    const call = "overlappingAll";
+    const spheres = columns(call, ["centres", centres, 3], ["radii", radii, 1]);
+    return this.queries("ks_world_overlapping_all", call, spheres, sphereAt.size / 8, options, certain);
   }
   /** Checks all invariants from scratch; returns the first defect, or null. For tests: it takes long. */
   audit(): string | null {
     const module = theModule();
-    module.call("world_audit", this.address);
-    return module.textOfBytes() || null;
+    return module.text(module.word("world_audit", this.address)) || null;
   }
   /** Returns the whole world, for World.restore() in any process, including native ones. */
   save(): Uint8Array {
-    const module = theModule();
-    module.require(module.call(this.named("world_save"), this.address));
-    return module.bytes();
-  }
-  /** @internal Returns the export of the module that does for this object what this one does for worlds. */
-  protected named(name: string): string {
-    return name;
+    return theModule().filledBytes("ks_world_save", this.address);
   }
   /** Returns a copy with an equal future. */
   clone(): World {
-    const module = theModule();
-    return World.at(module.require(module.call("world_clone", this.address)));
+    return World.at(theModule().handle("ks_world_clone", this.address));
   }
 
-  /** @internal Calls an export with this probe, if there is one, and returns its answer. */
-  protected ask(name: string, call: string, probe: Probe | undefined, ...values: number[]): Float64Array {
+  /** @internal Calls action(probe of C, its argument). */
+  protected asked<T>(probe: Probe | undefined, call: string, action: (probe: number, user: number) => T): T {
     if (probe !== undefined) throw new TypeError(`${call}: the world of a replay cannot ask a probe`);
+    return action(0, 0);
+  }
+  private earliest(name: string, call: string, { probe }: AnswerOptions, bodies: BodyId[], ...values: number[]): Earliest {
     const module = theModule();
-    module.require(module.call(name, this.address, ...values, ...noProbe));
-    return module.answer();
+    return module.with(() => {
+      const at = module.room(predictionAt.size);
+      const ids = bodies.map((body) => module.id(body, call));
+      this.asked(probe, call, (...asked) => module.check(name, this.address, ...ids, ...values, ...asked, at));
+      const from = module.at(at);
+      const partner = from.id(predictionAt.partner);
+      return {
+        time: from.number(predictionAt.time),
+        partner: partner < 0 ? null : partner,
+        wall: wallOf(from.word(predictionAt.wall)),
+        now: from.word(predictionAt.happens) !== 0,
+      };
+    });
   }
-  private earliest(name: string, call: string, { probe }: AnswerOptions, ...values: number[]): Earliest {
-    const numbers = this.ask(name, call, probe, ...values);
-    return {
-      time: numbers[0]!,
-      partner: numbers[1]! < 0 ? null : numbers[1]!,
-      wall: wallOf(numbers[2]!),
-      now: numbers[3] === 1,
-    };
+  private cast(
+    origin: Vec3, direction: Vec3, length: number, radius: number, call: string, options: QueryOptions,
+  ): Located[] {
+    const ray = [
+      ...vector(origin, "origin", call), ...vector(direction, "direction", call), numberOf(length, "length", call),
+      numberOf(radius, "radius", call),
+    ];
+    return this.query({ call, one: "ks_world_cast", all: "ks_world_cast_all", options }, ray, located);
   }
-  private overlaps(name: string, call: string, options: QueryOptions, region: number[], ...values: number[]): Certain[] {
-    const found = queryNumbers(options, call);
-    const numbers = theModule().with((scratch) =>
-      this.ask(name, call, options.probe, scratch.numbers(region), scratch.numbers(found), ...values));
-    return Array.from({ length: numbers.length / 2 }, (_, k) =>
-      ({ body: numbers[2 * k]!, certainly: numbers[2 * k + 1] === 1 }));
+  /**
+   * Answers a query by the function `one`, which takes vectors by their addresses, or, as that takes no options, as the
+   * only one of many.
+   */
+  private query<Hit>({ call, one, all, options, before = [] }: Query, numbers: number[], hit: (row: Place) => Hit): Hit[] {
+    checkKeys(options, queryKeys, "options", call);
+    const { filter, except, probe } = options;
+    if (filter !== undefined || except !== undefined) {
+      const { except: _, ...rest } = options;
+      const queries = except === undefined ? rest : { ...rest, except: [except] };
+      return this.queries(all, call, Float64Array.from(numbers), numbers.length, queries, hit, ...before)[0]!;
+    }
+    const module = theModule();
+    return module.with(() => {
+      const at = module.numbers(numbers);
+      const vectors = Math.floor(numbers.length / 3);
+      const values = [...Array.from({ length: vectors }, (_, k) => at + 24 * k), ...numbers.slice(3 * vectors), ...before];
+      return this.asked(probe, call, (...asked) =>
+        rows(module, module.fill(hitAt.size, one, this.address, ...values, ...asked), hitAt.size, hit));
+    });
   }
-  private located(name: string, call: string, options: QueryOptions, points: number[][], ...values: number[]): Located[] {
-    const found = queryNumbers(options, call);
-    const numbers = theModule().with((scratch) =>
-      this.ask(name, call, options.probe, ...points.map((point) => scratch.numbers(point)), scratch.numbers(found), ...values));
-    return Array.from({ length: numbers.length / 4 }, (_, k) => ({
-      body: numbers[4 * k]!,
-      certainly: numbers[4 * k + 1] === 1,
-      lower: numbers[4 * k + 2]!,
-      upper: numbers[4 * k + 3]!,
-    }));
+  private queries<Hit>(
+    name: string, call: string, numbers: Float64Array, width: number, options: QueriesOptions, hit: (row: Place) => Hit,
+    ...before: number[]
+  ): Hit[][] {
+    checkKeys(options, queriesKeys, "options", call);
+    const { filter, except, probe } = options;
+    const count = numbers.length / width;
+    if (except !== undefined) each(except, count, "except", call);
+    const module = theModule();
+    return module.with(() => {
+      const ends = module.room(4 * count);
+      const values = [
+        module.numbers(numbers), except === undefined ? 0 : module.ids(except, call), count, ...before,
+        filterRecord(module, filter, call),
+      ];
+      const hits = this.asked(probe, call, (...asked) =>
+        rows(module, module.fill(hitAt.size, name, this.address, ...values, ...asked, ends), hitAt.size, hit));
+      const end = (k: number) => (k < 0 ? 0 : module.i32[(ends >> 2) + k]!);
+      return Array.from({ length: count }, (_, k) => hits.slice(end(k - 1), end(k)));
+    });
   }
 }
 
+/** A query by one of two functions of C; `before` stands before the probe. */
+interface Query {
+  call: string;
+  one: string;
+  all: string;
+  options: QueryOptions;
+  before?: number[];
+}
+
+const certain = (row: Place): Certain => ({ body: row.id(hitAt.body), certainly: row.word(hitAt.certain) !== 0 });
+const located = (row: Place): Located =>
+  ({ ...certain(row), lower: row.number(hitAt.lower), upper: row.number(hitAt.upper) });
+
+/** Returns what read() makes of each record. */
+function rows<Row>(module: Module, [address, count]: [number, number], size: number, read: (row: Place) => Row): Row[] {
+  return Array.from({ length: count }, (_, k) => read(module.at(address + size * k)));
+}
+
+/** Returns the address of a filter, which is 0 without one. */
+function filterRecord(module: Module, filter: Filter | undefined, call: string): number {
+  if (filter === undefined) return 0;
+  const at = module.room(24);
+  putFilter(module, at, filter, call);
+  return at;
+}
+
+/** Joins columns to rows: of each its name, its values, and how many of them each row has. */
+function columns(call: string, ...all: [what: string, values: PerBody, width: number][]): Float64Array {
+  const [[what, first, firstWidth]] = all as [[string, ArrayLike<number>, number]];
+  requireNumbers(first, what, call);
+  if (first.length % firstWidth !== 0)
+    throw new RangeError(`${call}: ${what} must have ${firstWidth} numbers for each query, but has ${first.length}`);
+  const count = first.length / firstWidth;
+  const size = all.reduce((sum, [, , width]) => sum + width, 0);
+  const joined = new Float64Array(size * count);
+  let at = 0;
+  for (const [what, values, width] of all) {
+    const given = each(values, count * width, what, call);
+    for (let k = 0; k < given.length; ++k) joined[Math.floor(k / width) * size + at + (k % width)] = given[k]!;
+    at += width;
+  }
+  return joined;
+}
+
 export class World extends WorldView {
-  #rotationProbe: RotationProbeFunction | null = null;
-  #pairFilter: KeptFilter | null = null;
+  #rotationProbe: Kept | null = null;
+  #pairFilter: Kept | null = null;
   /** An event at which the pair filter threw: the next advance returns it. */
   #kept: Event | null = null;
+  /** A motion was seen to move bodies here. */
+  #isMoved = false;
   #warnedOfHops = false;
   #warnedOfJams = false;
 
   /** Throws KinesphereError for an invalid definition. */
   constructor(definition?: WorldDefinition);
-  /** @internal The object at this address. */
-  constructor(address: number, free: string);
-  constructor(definition: WorldDefinition | number = {}, free = "world_free") {
-    super(typeof definition === "number" ? definition : create(definition), free);
+  /** @internal The object of this handle. */
+  constructor(handle: Value);
+  constructor(definition: WorldDefinition | Value = {}) {
+    super(typeof definition === "object" ? create(definition) : definition, "ks_world_destroy");
   }
   /** @internal */
-  static at(address: number): World {
-    return new World(address, "world_free");
+  static at(handle: Value): World {
+    return new World(handle);
+  }
+  /** @internal */
+  protected override get kind(): string {
+    return "World";
   }
   /** @internal What the world has of JavaScript. */
-  protected kept(): [KeptFilter | null, RotationProbeFunction | null] {
+  protected kept(): [filter: Kept | null, rotationProbe: Kept | null] {
     return [this.#pairFilter, this.#rotationProbe];
   }
   /** @internal */
-  protected keep(filter: KeptFilter | null, rotationProbe: RotationProbeFunction | null): void {
+  protected keep(filter: Kept | null, rotationProbe: Kept | null): void {
     this.#pairFilter = filter;
     this.#rotationProbe = rotationProbe;
   }
@@ -431,13 +563,12 @@ export class World extends WorldView {
    * Restores a world from save(), called here or in any other program. A world that had a pair filter needs the same one.
    */
   static restore(snapshot: Uint8Array, pairFilter: PairFilter | null = null): World {
-    requireBytes(snapshot, "snapshot", "World.restore");
-    if (pairFilter !== null && typeof pairFilter !== "function")
-      throw new TypeError(`World.restore: pairFilter must be a function or null, but is ${shown(pairFilter)}`);
+    const call = "World.restore";
+    requireBytes(snapshot, "snapshot", call);
     const module = theModule();
-    const kept = pairFilter === null ? null : module.keepFilter(pairFilter);
-    const world = World.at(module.with((scratch) => module.require(
-      module.call("world_restore", scratch.bytes(snapshot), snapshot.length, kept?.number ?? -1))));
+    const kept = keptFilter(module, pairFilter, "pairFilter", call);
+    const world = World.at(module.with(() => module.handle(
+      "ks_world_restore", module.bytesOf(snapshot), snapshot.length, ...filterArguments(module, kept))));
     world.#pairFilter = kept;
     return world;
   }
@@ -445,9 +576,8 @@ export class World extends WorldView {
   /** Adds a body at the current time. */
   add(body: BodyDefinition): BodyId {
     checkKeys(body, bodyKeys, "body", "add");
-    const numbers = new Float64Array(bodySize);
-    putBodyFields(numbers, 0, body, "add");
-    return this.addNumbers(numbers)[0]!;
+    const module = theModule();
+    return this.idOf((id) => module.check("ks_world_add", this.address, bodyRecord(module, body, "add"), 1, id));
   }
   /** Adds all bodies or, after an error, none. Returns their ids. */
   addAll(bodies: BodyBatch): Float64Array {
@@ -460,23 +590,33 @@ export class World extends WorldView {
     const masses = each(bodies.masses ?? 1, count, "masses", call);
     const { positions, velocities } = bodies;
     requireAsMany(velocities, positions, call);
-    const numbers = new Float64Array(count * bodySize);
-    const common = new Float64Array(bodySize);
     const { userData: _, ...options } = bodies;
-    putBodyFields(common, 0, { ...options, position: [0, 0, 0] }, call);
-    for (let k = 0; k < count; ++k) {
-      const at = k * bodySize;
-      numbers.set(common, at);
+    const module = theModule();
+    return this.addEach(count, { ...options, position: [0, 0, 0] }, call, (at, k) => {
       for (let axis = 0; axis < 3; ++axis) {
-        numbers[at + bodyAt.position + axis] = positions[3 * k + axis]!;
-        numbers[at + bodyAt.velocity + axis] = velocities?.[3 * k + axis] ?? 0;
+        module.f64[((at + bodyAt.position) >> 3) + axis] = positions[3 * k + axis]!;
+        module.f64[((at + bodyAt.velocity) >> 3) + axis] = velocities?.[3 * k + axis] ?? 0;
       }
-      numbers[at + bodyAt.radius] = radii[k]!;
-      numbers[at + bodyAt.accelerationLimit] = limits[k]!;
-      numbers[at + bodyAt.userData] = whole(userData[k]!, 2 ** 53, "userData", call);
-      numbers[at + bodyAt.mass] = masses[k]!;
-    }
-    return this.addNumbers(numbers);
+      module.putNumber(at + bodyAt.radius, radii[k]!);
+      module.putNumber(at + bodyAt.accelerationLimit, limits[k]!);
+      module.putNumber(at + bodyAt.mass, masses[k]!);
+      module.putWhole(at + bodyAt.userData, whole(userData[k]!, 2 ** 53, "userData", call));
+    });
+  }
+  /** Adds bodies that are all as `like` but for what change(address of the definition, k) writes. */
+  private addEach(count: number, like: BodyDefinition, call: string, change: (at: number, k: number) => void): Float64Array {
+    const module = theModule();
+    return module.with(() => {
+      const { size } = bodyAt;
+      const first = bodyRecord(module, like, call), all = module.room(size * count), ids = module.room(12 * count);
+      for (let k = 0; k < count; ++k) {
+        const at = all + size * k;
+        module.bytes.copyWithin(at, first, first + size);
+        change(at, k);
+      }
+      module.check("ks_world_add", this.address, all, count, ids);
+      return module.idsAt(ids, count);
+    });
   }
   /**
    * Adds all bodies of a motion, with these radii, to a world that never had bodies: their ids are then their numbers in
@@ -491,12 +631,18 @@ export class World extends WorldView {
                            `${this.size} (a BodyMap has no such need)`);
     const count = motion.size;
     const sizes = each(radii, count, "radii", call);
-    const numbers = new Float64Array(count * bodySize);
-    for (let k = 0; k < count; ++k) {
-      const known: MotionDefinition = motion.definition(k, this.time);
-      putBodyFields(numbers, k * bodySize, { ...options, ...known, radius: sizes[k]! }, call);
-    }
-    const ids = this.addNumbers(numbers);
+    const { time } = this;
+    const module = theModule();
+    const ids = this.addEach(count, { ...options, position: [0, 0, 0] }, call, (at, k) => {
+      const known = motion.definition(k, time);
+      module.putNumber(at + bodyAt.radius, sizes[k]!);
+      module.putNumber(at + bodyAt.accelerationLimit, known.accelerationLimit);
+      module.putNumber(at + bodyAt.positionError, known.positionError);
+      module.putNumber(at + bodyAt.velocityError, known.velocityError);
+      module.putVector(at + bodyAt.plannedAcceleration, known.plannedAcceleration);
+      module.putVector(at + bodyAt.position, known.position);
+      module.putVector(at + bodyAt.velocity, known.velocity);
+    });
     if (ids.every((id, k) => id === k)) return ids;
     for (const id of ids) this.remove(id);
     throw new RangeError(`${call}: motion must be added to a world that never had bodies, so that its numbers are ids ` +
@@ -511,13 +657,8 @@ export class World extends WorldView {
     const call = "addMovingShape";
     checkKeys(body, shapeCarrierKeys, "body", call);
     const module = theModule();
-    const [kind, parts] = shapeNumbers(shape, call);
-    const numbers = new Float64Array(bodySize);
-    putBodyFields(numbers, 0, body, call);
-    const id = module.with((scratch) =>
-      module.call(this.named("world_add_moving_shape"), this.address, kind, scratch.numbers(parts), scratch.numbers(numbers)));
-    if (id < 0) throw module.error();
-    return id;
+    return this.idOf((id) => withShape(module, shape, call, (made) =>
+      module.check("ks_world_add_moving_shape", this.address, bodyRecord(module, body, call), made, id)));
   }
   /**
    * Adds a rigid body: parts that move and turn together, about its position. It is one body, with one state
@@ -525,17 +666,23 @@ export class World extends WorldView {
    */
   addRigidBody(parts: readonly RigidPart[], body: RigidBodyDefinition): BodyId {
     const module = theModule();
-    const id = module.with((scratch) =>
-      module.call(this.named("world_add_rigid_body"), this.address, ...rigidArguments(scratch, parts, body, "addRigidBody")));
-    if (id < 0) throw module.error();
-    return id;
+    return this.idOf((id) =>
+      module.check("ks_world_add_rigid_body", this.address, ...rigidRecords(module, parts, body, "addRigidBody"), id));
   }
   /** Adds a static body. */
   addStatic(shape: Shape, options: StaticOptions = {}): BodyId {
     const call = "addStatic";
     checkKeys(options, staticKeys, "options", call);
-    return this.addSurroundings("world_add_static", shape, options, call, options.solid === false ? 0 : 1,
-                                whole(options.sensorClass ?? 0, 255, "sensorClass", call));
+    const module = theModule();
+    return this.idOf((id) => withShape(module, shape, call, (made) => {
+      const at = module.record(staticAt);
+      module.putWord(at + staticAt.solid, options.solid === false ? 0 : 1);
+      module.putWord(at + staticAt.sensorClass, whole(options.sensorClass ?? 0, 255, "sensorClass", call));
+      module.bytes.copyWithin(at + staticAt.shape, made, made + shapeAt.size);
+      putFilter(module, at + staticAt.filter, options.filter ?? {}, call);
+      module.putWhole(at + staticAt.userData, whole(options.userData ?? 0, 2 ** 53, "userData", call));
+      module.check("ks_world_add_static", this.address, at, 1, id);
+    }));
   }
   /** Adds a surface of triangles as one static body: addStatic({ mesh: { vertices, corners } }). */
   addMesh(vertices: ArrayLike<number>, corners: ArrayLike<number>, options: StaticOptions = {}): BodyId {
@@ -546,19 +693,34 @@ export class World extends WorldView {
    * distance 0.
    */
   addZone(shape: Shape, options: ZoneOptions = {}): BodyId {
-    checkKeys(options, zoneKeys, "options", "addZone");
-    return this.addSurroundings("world_add_zone", shape, options, "addZone");
+    const call = "addZone";
+    checkKeys(options, zoneKeys, "options", call);
+    const data = BigInt(whole(options.userData ?? 0, 2 ** 53, "userData", call));
+    const module = theModule();
+    const zone = this.idOf((id) => withShape(module, shape, call, (made) =>
+      module.check("ks_world_add_zone", this.address, made, data, id)));
+    if (options.filter !== undefined) this.setFilter(zone, options.filter);
+    return zone;
+  }
+  /** Calls add(), which writes the id of a body, and returns the id. */
+  private idOf(add: (id: number) => void): BodyId {
+    const module = theModule();
+    return module.with(() => {
+      const at = module.room(16);
+      add(at);
+      return module.at(at).id(0);
+    });
   }
   /** Removes a body. Its contacts end with events; its id is stale for ever. */
   remove(body: BodyId): void {
-    this.change("world_remove", body);
+    this.change("ks_world_remove", body, 1);
   }
   /**
    * Sets the velocity from now on; later probes must agree with it. So a Motion that moves the body has to be told, too:
    * BodyMap.setVelocity() does both.
    */
   setVelocity(body: BodyId, velocity: Vec3): void {
-    this.change("world_set_velocity", body, vector(velocity, "velocity", "setVelocity"));
+    this.changeBy("ks_world_set_velocity", body, vector(velocity, "velocity", "setVelocity"));
   }
   /** Sets the velocities of all these bodies, three numbers for each, or on an error of none. */
   setVelocityAll(bodies: ArrayLike<BodyId>, velocities: ArrayLike<number>): void {
@@ -569,17 +731,16 @@ export class World extends WorldView {
       throw new RangeError(`${call}: velocities must have three numbers for each of ${bodies.length} bodies, ` +
                            `but has ${velocities.length}`);
     const module = theModule();
-    module.with((scratch) =>
-      module.require(module.call(this.named("world_set_velocity_all"), this.address, bodies.length, scratch.numbers(bodies),
-                                 scratch.numbers(velocities))));
+    module.with(() => module.check("ks_world_set_velocities", this.address, module.ids(bodies, call),
+                                   module.numbers(velocities), bodies.length));
   }
   /** Sets the angular velocity (radians / time) of a rigid body from now on; a rotation probe must agree with it. */
   setAngularVelocity(body: BodyId, angularVelocity: Vec3): void {
-    this.change("world_set_angular_velocity", body, vector(angularVelocity, "angularVelocity", "setAngularVelocity"));
+    this.changeBy("ks_world_set_angular_velocity", body, vector(angularVelocity, "angularVelocity", "setAngularVelocity"));
   }
   /** Turns a rigid body at once, as teleport() moves it. */
   setRotation(body: BodyId, rotation: Rotation): void {
-    this.change("world_set_rotation", body, numbersOfRotation(rotation, "setRotation"));
+    this.changeBy("ks_world_set_rotation", body, numbersOfRotation(rotation, "setRotation"));
   }
   /**
    * Sets the function that gives the rotations of rigid bodies, directly after the probe; null removes it. Without one,
@@ -590,8 +751,9 @@ export class World extends WorldView {
     if (probe !== null && typeof probe !== "function")
       throw new TypeError("setRotationProbe: probe must be a function or null");
     const module = theModule();
-    module.require(module.call("world_set_rotation_probe", this.address, probe === null ? 0 : 1));
-    this.#rotationProbe = probe;
+    const kept = probe === null ? null : module.keep(rotating(module, probe));
+    module.check("ks_world_set_rotation_probe", this.address, kept === null ? 0 : module.pointer("rotate"), kept?.number ?? 0);
+    this.#rotationProbe = kept;
   }
   override clone(): World {
     const copy = super.clone();
@@ -601,59 +763,58 @@ export class World extends WorldView {
   }
   /** Puts a body elsewhere; later probes must agree with it. BodyMap.teleport() tells the motion, too. */
   teleport(body: BodyId, state: State): void {
-    this.change("world_teleport", body, sixOf(state, "teleport"));
+    this.changeBy("ks_world_teleport", body, sixOf(state, "teleport"));
   }
   /** Gives a body another radius (length, >= 0) from now on. */
   setRadius(body: BodyId, radius: number): void {
-    const module = theModule();
-    module.require(module.call("world_set_radius", this.address, body, radius));
+    this.change("ks_world_set_radius", body, radius);
   }
   /**
    * Lets the radius of a ball change at this rate (length / time) from now on; negative for one that shrinks, which
    * stays a point once it is one. Events have the speed at which the surfaces approach.
    */
   setRadiusRate(body: BodyId, rate: number): void {
-    const module = theModule();
-    module.require(module.call("world_set_radius_rate", this.address, body, rate));
+    this.change("ks_world_set_radius_rate", body, rate);
   }
   /** Gives a static body or a zone another shape: those that stay in contact with it or inside it get no event. */
   setShape(body: BodyId, shape: Shape): void {
-    const module = theModule();
-    const [kind, numbers] = shapeNumbers(shape, "setShape");
-    module.with((scratch) =>
-      module.require(module.call("world_set_shape", this.address, body, kind, scratch.numbers(numbers))));
+    withShape(theModule(), shape, "setShape", (made) => this.change("ks_world_set_shape", body, made));
   }
   /** Sets the mass (>= 0) that events have from now on. */
   setMass(body: BodyId, mass: number): void {
-    const module = theModule();
-    module.require(module.call("world_set_mass", this.address, body, mass));
+    this.change("ks_world_set_mass", body, mass);
   }
   /** Gives a body other motion limits from now on. */
   setMotionLimits(body: BodyId, limits: MotionLimits): void {
-    checkKeys(limits, limitKeys, "limits", "setMotionLimits");
-    const numbers = new Float64Array(motionLimitsSize);
-    putMotionLimits(numbers, 0, limits, "setMotionLimits");
-    this.change("world_set_motion_limits", body, Array.from(numbers));
+    const call = "setMotionLimits";
+    checkKeys(limits, limitKeys, "limits", call);
+    const module = theModule();
+    module.with(() => {
+      const at = module.room(motionLimitsAt.size);
+      putMotionLimits(module, at, limits, call);
+      this.change("ks_world_set_motion_limits", body, at);
+    });
   }
   /** Disables the body: it touches no other and is never probed. */
   disable(body: BodyId): void {
-    this.change("world_disable", body);
+    this.change("ks_world_disable", body);
   }
   /** Brings a disabled body back, in this state. */
   enable(body: BodyId, state: State): void {
-    this.change("world_enable", body, sixOf(state, "enable"));
+    this.changeBy("ks_world_enable", body, sixOf(state, "enable"));
   }
   /** Puts the body to sleep: it stays in place, and is not probed, until something wakes it. */
   sleep(body: BodyId): void {
-    this.change("world_sleep", body);
+    this.change("ks_world_sleep", body);
   }
   /** Wakes a sleeping body. */
   wake(body: BodyId): void {
-    this.change("world_wake", body);
+    this.change("ks_world_wake", body);
   }
   /** Sets which bodies it may touch. Contacts that the filter excludes end; overlaps that it newly admits begin at once. */
   setFilter(body: BodyId, filter: Filter): void {
-    this.change("world_set_filter", body, filterNumbers(filter, "setFilter"));
+    const module = theModule();
+    module.with(() => this.change("ks_world_set_filter", body, filterRecord(module, filter, "setFilter")));
   }
   /**
    * Sets a predicate of your own for pairs whose filters let them touch; null removes it. Clones have it, too, and
@@ -661,25 +822,23 @@ export class World extends WorldView {
    * refreshFilter() or another pair filter.
    */
   setPairFilter(filter: PairFilter | null): void {
-    if (filter !== null && typeof filter !== "function")
-      throw new TypeError(`setPairFilter: filter must be a function or null, but is ${shown(filter)}`);
     const module = theModule();
-    const kept = filter === null ? null : module.keepFilter(filter);
-    const before = this.#pairFilter;
-    this.#pairFilter = kept;
+    const kept = keptFilter(module, filter, "filter", "setPairFilter");
+    const name = "ks_world_set_pair_filter";
+    const status = module.status(name, this.address, ...filterArguments(module, kept));
+    const error = status === 0 ? null : module.error(status, name);
+    if (error === null) this.#pairFilter = kept;
     // Throws what the filter threw about a pair in touch; the world has it all the same.
-    if (module.call("world_set_pair_filter", this.address, kept?.number ?? -1) !== 0) return;
-    this.#pairFilter = before;
-    throw module.error();
+    module.rethrow();
+    if (error !== null) throw error;
   }
   /** Says that the results of the pair filter for this body have changed. */
   refreshFilter(body: BodyId): void {
-    this.change("world_refresh_filter", body);
+    this.change("ks_world_refresh_filter", body);
   }
   /** Sets whether the body has contacts from now on. */
   setSolid(body: BodyId, solid: boolean): void {
-    const module = theModule();
-    module.require(module.call("world_set_solid", this.address, body, solid ? 1 : 0));
+    this.change("ks_world_set_solid", body, solid ? 1 : 0);
   }
   /**
    * Sets the distances (length >= 0) at which all bodies of the class sense others with a category bit in the mask, by
@@ -690,30 +849,28 @@ export class World extends WorldView {
     const call = "setSensor";
     requireNumbers(distances, "distances", call);
     const number = whole(sensorClass, 255, "sensorClass", call);
-    const sensed = maskNumber(mask, "mask", call);
-    module.with((scratch) => module.require(module.call(
-      "world_set_sensor", this.address, number, distances.length, scratch.numbers(distances), sensed)));
+    const sensed = BigInt(maskNumber(mask, "mask", call));
+    module.with(() => module.check("ks_world_set_sensor", this.address, number, module.numbers(distances), distances.length, sensed));
   }
   /** Gives a body the sensor of another class from now on. */
   setSensorClass(body: BodyId, sensorClass: number): void {
-    const module = theModule();
-    const number = whole(sensorClass, 255, "sensorClass", "setSensorClass");
-    module.require(module.call("world_set_sensor_class", this.address, body, number));
+    this.change("ks_world_set_sensor_class", body, whole(sensorClass, 255, "sensorClass", "setSensorClass"));
   }
   /**
    * Gives two bodies a state, a whole number of the caller's own that their events have, until it is set to 0 or one of
    * the two is removed.
    */
   setPairState(first: BodyId, second: BodyId, state: number): void {
+    const call = "setPairState";
+    const number = pairStateOf(state, "state", call);
     const module = theModule();
-    const number = pairStateOf(state, "state", "setPairState");
-    module.require(module.call("world_set_pair_state", this.address, first, second, number));
+    module.with(() => this.change("ks_world_set_pair_state", first, module.id(second, call), number));
   }
   /** Returns the state of two bodies; 0 if it was never set. */
   pairState(first: BodyId, second: BodyId): number {
     const module = theModule();
-    module.require(module.call("world_pair_state", this.address, first, second));
-    return module.answer()[0]!;
+    return module.with(() =>
+      module.word("ks_world_pair_state", this.address, module.id(first, "pairState"), module.id(second, "pairState")));
   }
   /**
    * To be called at a sensor_enter or sensor_leave: velocities of the caller have turned the two back there, so they have
@@ -721,60 +878,59 @@ export class World extends WorldView {
    */
   turnBack(crossing: Event): void {
     const module = theModule();
-    module.with((scratch) => module.require(module.call(
-      "world_turn_back", this.address, scratch.numbers(crossing.numbers))));
+    module.with(() => module.check("ks_world_turn_back", this.address, eventRecord(module, crossing)));
   }
   /** Schedules an event "timer" at a time that has not passed, and, if the period is not 0, again after each period. */
   schedule(time: number, userData = 0, period = 0): void {
-    const module = theModule();
-    const data = whole(userData, 2 ** 53, "userData", "schedule");
-    module.require(module.call("world_schedule", this.address, time, data, period));
+    const data = BigInt(whole(userData, 2 ** 53, "userData", "schedule"));
+    theModule().check("ks_world_schedule", this.address, time, data, period);
   }
   /** Removes all timers with these data. Returns how many there were. */
   unschedule(userData: number): number {
-    const module = theModule();
-    const data = whole(userData, 2 ** 53, "userData", "unschedule");
-    module.require(module.call("world_unschedule", this.address, data));
-    return module.answer()[0]!;
+    const data = BigInt(whole(userData, 2 ** 53, "userData", "unschedule"));
+    return theModule().word("ks_world_unschedule", this.address, data);
   }
   /** Stores a whole number for the caller: events have it. */
   setUserData(body: BodyId, userData: number): void {
-    const module = theModule();
-    const data = whole(userData, 2 ** 53, "userData", "setUserData");
-    module.require(module.call("world_set_user_data", this.address, body, data));
+    this.change("ks_world_set_user_data", body, BigInt(whole(userData, 2 ** 53, "userData", "setUserData")));
   }
 
   /** @internal */
-  protected override ask(name: string, call: string, probe: Probe | undefined, ...values: number[]): Float64Array {
-    if (probe === undefined) return super.ask(name, call, probe, ...values);
-    const module = theModule();
-    module.require(this.callWith(probe, call, (addresses) => [name, ...values, 1, ...addresses]));
-    return module.answer();
+  protected override asked<T>(probe: Probe | undefined, call: string, action: (probe: number, user: number) => T): T {
+    return probe === undefined ? action(0, 0) : withProbe(theModule(), probe, call, action);
   }
-  /** Makes a call with a probe, whose addresses the arguments contain. */
-  private callWith(probe: Probe, call: string, made: (addresses: number[]) => [name: string, ...values: number[]]): number {
+  /** Refuses a motion whose bodies the caller forgot to add. */
+  private requireMoved(motion: Probe): void {
+    if (this.#isMoved || !(motion instanceof Motion)) return;
+    theModule().check("world_check_motion", this.address, motion.address);
+    this.#isMoved = true;
+  }
+  /** @internal Calls ask(event), which returns a status and writes an event. Returns the event, if there is one. */
+  protected next(ask: (event: number) => number): Event | null {
     const module = theModule();
-    if (!(probe instanceof Motion) && !(probe instanceof BodyMap) && typeof probe !== "function")
-      throw new TypeError(`${call}: probe must be a function, a Motion or a BodyMap`);
-    const addresses = moving(probe);
-    const [name, ...values] = made(addresses);
-    const callbacks = asking(module, typeof probe === "function" ? probe : null, null, this.#rotationProbe);
-    return module.callWith(callbacks, [this.address, ...addresses], name, this.address, ...values);
+    return module.with(() => {
+      const at = module.room(eventAt.size);
+      module.putWord(at, eventAt.size);
+      const status = ask(at);
+      const event = status === 0 && module.i32[(at + eventAt.kind) >> 2] !== 0 ? eventFrom(module, at) : null;
+      if (module.hasThrown) this.#kept = event;
+      module.rethrow();
+      if (status !== 0) throw module.error(status, "ks_world_advance");
+      return event;
+    });
   }
 
   /** Advances to the next event and returns it, or to `until`, and returns null. */
   advance(until: number, probe: Probe): Event | null {
-    const module = theModule();
     if (this.#kept !== null) {
       const event = this.#kept;
       this.#kept = null;
       return event;
     }
-    const result = this.callWith(probe, "advance", (addresses) => ["world_advance", until, ...addresses]);
-    if (module.filterHasThrown && result > 0) this.#kept = new Event(module.answer());
-    module.rethrowOfFilter();
-    if (result < 0) throw module.error();
-    return result === 0 ? null : new Event(module.answer());
+    this.requireMoved(probe);
+    const module = theModule();
+    return this.next((event) => withProbe(module, probe, "advance", (asked, user) =>
+      module.status("ks_world_advance", this.address, until, asked, user, event)));
   }
   /**
    * Yields the events up to `until`, for a loop in which bodies may be changed. After an early exit the world stands at
@@ -790,31 +946,35 @@ export class World extends WorldView {
    */
   run(until: number, options: RunOptions, sink?: (events: Events) => void): Events {
     const module = theModule();
+    const call = "run";
     if (!(options?.motion instanceof Motion) && !(options?.motion instanceof BodyMap))
       throw new TypeError("run: motion must be a Motion or a BodyMap");
-    checkKeys(options, runKeys, "options", "run");
+    checkKeys(options, runKeys, "options", call);
     if (this.#kept !== null) throw new Error("run: the pair filter threw at an event, which advance() has yet to return");
-    if (options.atStop !== undefined && typeof options.atStop !== "function")
-      throw new TypeError("run: atStop must be a function of an event");
-    const [responding, bounces, scene, asked] = responded(options.respond);
-    return module.with((scratch) => {
-      const masses = bounces.masses ?? [];
-      const addresses = moving(options.motion);
-      const values = [until, ...addresses, responding, scratch.numbers(masses), masses.length,
-                      bounces.restitution ?? 1, bounces.restingSpeed ?? 0, scene];
-      let failure: { value: unknown } | null = null;
-      try {
-        const callbacks = asking(module, null, asked, this.#rotationProbe, options.atStop);
-        if (module.callWith(callbacks, [this.address, ...addresses], "world_run", this.address, ...values) === 0)
-          failure = { value: module.error() };
-      } catch (value) {
-        failure = { value };
-      }
-      const events = new Events(module.answer());
+    const { motion, respond, atStop } = options;
+    if (atStop !== undefined && typeof atStop !== "function") throw new TypeError("run: atStop must be a function of an event");
+    const answering = answeringOf(module, respond, call, atStop !== undefined);
+    this.requireMoved(motion);
+    const { address } = motion;
+    const movers = motion instanceof Motion ? [address, 0] : [0, address];
+    const atEvent = (event: number) => refusePromise(atStop!(eventFrom(module, event)), "atStop");
+    return module.with(() => {
+      const told = module.room(eventListAt.size);
+      module.putWord(told + eventListAt.count, 0);
+      const status = module.asking(atEvent, [address], (stop) => module.asking(answering.callback, [], (user) => {
+        const definition = answeringRecord(module, runAt, answering, user);
+        module.putWord(definition + runAt.sink, module.pointer("sink"));
+        module.putWord(definition + runAt.sinkUser, stop);
+        return module.status("world_run", this.address, until, ...movers, definition, answering.scene,
+                             module.numbers(answering.masses), answering.masses.length, told);
+      }));
+      const failure = module.takeThrown() ?? (status === 0 ? null : { value: module.error(status, "world_run") });
+      const count = module.i32[(told + eventListAt.count) >> 2]!;
+      const events = new Events(module.copy(module.i32[(told + eventListAt.events) >> 2]!, count * eventAt.size));
       sink?.(events);
       if (failure !== null) throw failure.value;
-      if ((bounces.restitution ?? 1) < 1 && !bounces.restingSpeed) this.warnOfHops();
-      if (options.respond !== undefined && !bounces.restingSpeed) this.warnOfJams();
+      if (answering.restitution < 1 && !answering.restingSpeed) this.warnOfHops();
+      if (respond !== undefined && !answering.restingSpeed) this.warnOfJams();
       return events;
     });
   }
@@ -824,19 +984,17 @@ export class World extends WorldView {
    * which bodies have cost most probes since.
    */
   setProfiling(on: boolean): void {
-    const module = theModule();
-    module.require(module.call("world_set_profiling", this.address, on ? 1 : 0));
+    theModule().check("ks_world_set_profiling", this.address, on ? 1 : 0);
   }
   /** Records all inputs and outputs of this world from now on. */
   startRecording(): void {
-    const module = theModule();
-    module.require(module.call("world_start_recording", this.address));
+    theModule().check("ks_world_start_recording", this.address);
   }
   /** Returns the recording, for Replay here or in any other program. */
   stopRecording(): Uint8Array {
     const module = theModule();
-    module.require(module.call("world_stop_recording", this.address));
-    return module.bytes();
+    module.check("ks_world_stop_recording", this.address);
+    return module.filledBytes("ks_world_recording", this.address);
   }
 
   /** Warns once of a world nearly all of whose contacts were repeated, of bodies that hop upon each other. */
@@ -857,32 +1015,19 @@ export class World extends WorldView {
     console.warn(`run: ${jammedContacts} contacts were jammed: their bodies had no room beyond the contactTolerance, and ` +
                  "parted without speed, whatever the restitution: a contactTolerance below the gaps keeps their energy");
   }
-  protected change(name: string, body: BodyId, numbers?: number[]): void {
+  /** @internal Calls a function of C for one body. */
+  protected change(name: string, body: BodyId, ...values: Value[]): void {
     const module = theModule();
-    module.with((scratch: Scratch) =>
-      module.require(module.call(this.named(name), this.address, body, ...(numbers === undefined ? [] : [scratch.numbers(numbers)]))));
+    module.with(() => module.check(name, this.address, module.id(body, name), ...values));
   }
-  private addNumbers(numbers: Float64Array): Float64Array {
+  /** @internal Does the same with numbers by their address. */
+  protected changeBy(name: string, body: BodyId, numbers: number[]): void {
     const module = theModule();
-    return module.with((scratch) => {
-      module.require(module.call(this.named("world_add_all"), this.address, numbers.length / bodySize, scratch.numbers(numbers)));
-      return module.answer();
-    });
-  }
-  private addSurroundings(name: string, shape: Shape, options: ZoneOptions, call: string, ...values: number[]): BodyId {
-    const module = theModule();
-    const [kind, numbers] = shapeNumbers(shape, call);
-    const filter = filterNumbers(options.filter ?? {}, call);
-    const id = module.with((scratch) =>
-      module.call(name, this.address, kind, scratch.numbers(numbers), scratch.numbers(filter), ...values,
-                  whole(options.userData ?? 0, 2 ** 53, "userData", call)));
-    if (id < 0) throw module.error();
-    return id;
+    module.with(() => module.check(name, this.address, module.id(body, name), module.numbers(numbers)));
   }
 }
 
-function create(definition: WorldDefinition): number {
+function create(definition: WorldDefinition): bigint {
   const module = theModule();
-  return module.with((scratch) =>
-    module.require(module.call("world_create", scratch.numbers(definitionNumbers(definition)))));
+  return module.with(() => module.handle("ks_world_create", definitionRecord(module, definition)));
 }
