@@ -65,7 +65,7 @@ names = {
     "ks_world_overlapping_sphere": ("overlapping", "overlapping", "overlapping"),
     "ks_world_overlapping_box": ("overlapping", "overlapping_box", "overlappingBox"),
     "ks_world_cast": ("ray_cast, sphere_cast", "ray_cast, sphere_cast", "rayCast, sphereCast"),
-    "ks_world_cast_all": ("ray_cast_all", "ray_cast_all", ""),
+    "ks_world_cast_all": ("ray_cast_all", "ray_cast_all", "rayCastAll"),
     "ks_world_recording": ("stop_recording", "stop_recording", "stopRecording"),
     "ks_replay_open": ("Replay::open", "Replay", "Replay"),
     "ks_replay_steps": ("step, step_count", "step, step_count", "step, stepCount"),
@@ -96,23 +96,8 @@ wrappers = {
     ("ks_world_add_motion", "C#"): "AddBallistic, AddRandomForces, AddFrames, AddSteered",
 }
 
-one_each = (
-    "Queries take microseconds, a call into the module tens of nanoseconds: one call for each costs no more."
-)
 # Why a language lacks a call of C, and what does the same there.
-lacking = {
-    (
-        "ks_world_reserve",
-        "JavaScript",
-    ): "Memory of the module grows as it is needed, and `addAll` takes many bodies at once.",
-    ("ks_world_overlapping_all", "JavaScript"): one_each,
-    ("ks_world_nearest_all", "JavaScript"): one_each,
-    ("ks_world_cast_all", "JavaScript"): one_each,
-    (
-        "ks_world_timings",
-        "JavaScript",
-    ): "The module has no clock; the profiler of the browser shows its functions.",
-}
+lacking: dict[tuple[str, str], str] = {}
 
 
 @dataclass(frozen=True)

@@ -87,8 +87,8 @@ class Generated(unittest.TestCase):
                 "tests/c/record_sizes.c",
             },
         )
-        self.assert_in("browser/package/src/records.ts", "get heat(): number { return this.numbers[54]!; }")
-        self.assert_in("browser/package/src/records.ts", "export const eventSize = 55;")
+        self.assert_in("browser/package/src/records.ts", "get heat(): number { return this.number(400); }")
+        self.assert_in("browser/package/src/records.ts", "export const eventAt = { size: 408,")
         self.assert_in("csharp/src/Records.cs", "public double Heat;")
         self.assert_in("rust/src/records.rs", "            heat: raw.heat,")
         self.assert_in("python/kinesphere/_kinesphere.pyi", "    def heat(self) -> float: ...")
@@ -113,7 +113,7 @@ class Generated(unittest.TestCase):
                 "tests/c/record_sizes.c",
             },
         )
-        self.assert_in("browser/package/src/records.ts", "given.heat ?? 0.5;")
+        self.assert_in("browser/package/src/records.ts", "given.heat ?? 0.5);")
         self.assert_in("rust/src/records.rs", "            heat: self.heat,")
         self.assert_in("python/module/definitions.hpp", 'py::arg("heat") = 0.5,')
         self.assert_in("python/kinesphere/_kinesphere.pyi", "        heat: float = 0.5,")

@@ -47,7 +47,7 @@ placed = [
     "ks_shape", "ks_static_definition", "ks_body_view", "ks_rigid_definition", "ks_rigid_hull", "ks_sensor_overlap",
     "ks_prediction", "ks_hit", "ks_sphere", "ks_ray", "ks_busy_body", "ks_response", "ks_roughness",
     "ks_step_potential_definition", "ks_run_definition", "ks_game_definition", "ks_event_list", "ks_body_list",
-    "ks_track_class", "ks_separation", "ks_separation_rule",
+    "ks_track_class", "ks_separation", "ks_separation_rule", "ks_timings",
 ]  # fmt: skip
 tracks = {"ks_monitor_event", "ks_pair_answer", "ks_open_pair", "ks_predicted_pair", "ks_report_request"}
 

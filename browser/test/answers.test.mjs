@@ -55,6 +55,36 @@ test("a query passes through a body and through those that a filter excludes", (
   assert.equal(world.sphereCast([0, 0, 0], 1, [1, 0, 0], 100, { except: shooter })[0].body, friend);
 });
 
+test("many queries at once find what each finds alone", () => {
+  const { world, probe } = ships();
+  const points = [0, 0, 0, 10, 0, 0, 499, 3, 0, 70, 0, 0];
+  const each = Array.from({ length: 4 }, (_, k) => points.slice(3 * k, 3 * k + 3));
+  const way = [1, 0.5, 0], ways = each.flatMap(() => way);
+  for (const options of [{}, { probe }]) {
+    const alone = (query) => each.map((point, k) => query(world.clone(), point, k));
+    assert.deepEqual(world.clone().nearestAll(points, 2, options), alone((one, point) => one.nearest(point, 2, options)));
+    assert.deepEqual(world.clone().overlappingAll(points, [1, 2, 3, 4], options),
+                     alone((one, point, k) => one.overlapping(point, k + 1, options)));
+    assert.deepEqual(world.clone().rayCastAll(points, ways, 40, options), alone((one, point) => one.rayCast(point, way, 40, options)));
+    assert.deepEqual(world.clone().rayCastAll(points, ways, 40, options, 3),
+                     alone((one, point) => one.sphereCast(point, 3, way, 40, options)));
+  }
+  const without = { except: [0, 1, 2, 0], filter: { mask: 1 } };
+  assert.deepEqual(world.nearestAll(points, 1, without),
+                   each.map((point, k) => world.nearest(point, 1, { except: without.except[k], filter: without.filter })));
+  assert.deepEqual(world.nearestAll([], 3), []);
+  assert.deepEqual(world.nearestAll(points, 1, { filter: { mask: 4 } }), [[], [], [], []]);
+  // More hits than there was room for at first.
+  const crowd = new World();
+  crowd.addAll({ positions: Array.from({ length: 900 }, (_, k) => (k % 3 === 0 ? k : 0)) });
+  assert.deepEqual(crowd.overlappingAll([0, 0, 0, 0, 9, 0], 2000).map(({ length }) => length), [300, 300]);
+  assert.throws(() => world.nearestAll([1, 2], 1), /nearestAll: points must have 3 numbers for each query, but has 2/);
+  assert.throws(() => world.rayCastAll(points, [1, 0, 0], 9), /rayCastAll: directions must have a number for each of 12/);
+  assert.throws(() => world.nearestAll(points, 1, { except: [1] }), /nearestAll: except must have a number for each of 4/);
+  assert.throws(() => world.nearestAll(points, 1, { excpet: [1] }), /nearestAll: options has no key excpet/);
+  refuses(() => world.overlappingAll(points, [1, 1, -1, 1]), "out_of_range", /query 2/);
+});
+
 test("predictions reach further with a probe, for a distance, and for a time", () => {
   const { world, motion, first, second } = ships();
   const known = world.safeUntil(first, second);

@@ -86,6 +86,7 @@ test("the busiest bodies are named, with the reason", () => {
   world.addStatic({ halfSpace: { normal: [0, 0, 1], offset: 0 } });
   const balls = Array.from(world.addAll({ positions: [0, 0, 1, 4, 0, 1, 8, 0, 1], accelerationLimits: 10 }));
   refuses(() => world.busiest(), "not_profiling", "world");
+  world.reserve(100);
   world.setProfiling(true);
   const probe = (ids, time, states) => ids.forEach((id, k) => states.set([4 * balls.indexOf(id), 0, 1, 0, 0, 0], 6 * k));
   while (world.advance(0.2, probe) !== null);
@@ -101,6 +102,8 @@ test("the busiest bodies are named, with the reason", () => {
   }
   assert.equal(probes, world.counters.probes);
   assert.equal(world.busiest(1).length, 1);
+  const { advances, advance, probes: inProbes } = world.timings;
+  assert.ok(advances > 0 && advance > inProbes && inProbes > 0 && advance < 60, `${advances} ${advance} ${inProbes}`);
   world.setProfiling(false);
   refuses(() => world.clone().busiest(), "not_profiling", "world");
 });

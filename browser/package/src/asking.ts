@@ -174,7 +174,7 @@ export function answeringOf(module: Module, respond: RunOptions["respond"], call
   return { ...none, pointer: module.pointer("rough"), user: block.address, kept: block };
 }
 
-/** Returns the address of a ks_run_definition or a ks_game_definition; `user` is the number of a callback. */
+/** @internal Returns the address of a ks_run_definition or a ks_game_definition; `user` is the number of a callback. */
 export function answeringRecord(
   module: Module, layout: typeof runAt | typeof gameAt, answering: Answering, user: number,
 ): number {

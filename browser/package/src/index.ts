@@ -9,7 +9,7 @@ export {
 export {
   bounce, type Bounce, type BounceOptions, type Bounces, type Roughness, StepPotential, type StepPotentialDefinition,
 } from "./response.js";
-export type { AnswerOptions, Limits, PairOptions, QueryOptions } from "./answers.js";
+export type { AnswerOptions, Limits, PairOptions, QueriesOptions, QueryOptions } from "./answers.js";
 export type { Answer, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
 export type {
   BodyBatch, BodyDefinition, BodyOptions, MeshShape, MovedBodyDefinition, MovedOptions, Shape, ShapeCarrier,
@@ -20,7 +20,7 @@ export type {
 } from "./rigid_body.js";
 export { BodyMap } from "./body_map.js";
 export {
-  type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, World, WorldView,
+  type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, type Timings, World, WorldView,
 } from "./world.js";
 export { type GameOptions, GameWorld } from "./game_world.js";
 export type { Box, Definition, WorldDefinition } from "./definition.js";

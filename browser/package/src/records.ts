@@ -608,3 +608,6 @@ export const separationAt = { size: 40, shape: 0, horizontal: 8, vertical: 16, l
 
 /** @internal Size of a ks_separation_rule, and offsets of its fields, in bytes. */
 export const separationRuleAt = { size: 16, firstClass: 0, secondClass: 4, levels: 8, levelCount: 12 } as const;
+
+/** @internal Size of a ks_timings, and offsets of its fields, in bytes. */
+export const timingsAt = { size: 24, advances: 0, advance: 8, probes: 16 } as const;

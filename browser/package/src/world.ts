@@ -20,7 +20,7 @@ import { checkKeys, numberOf, refusePromise, requireBytes, requireNumbers, whole
 import {
   bodyAt, bodyViewAt, busyBodyAt, eventAt, type EventKind, eventKinds, eventListAt, hitAt, type MotionLimits,
   motionLimitsAt, predictionAt, type ProbeReason, probeReasons, putMotionLimits, rayAt, runAt, sensorOverlapAt, shapeAt,
-  sphereAt, staticAt, type Wall, wallOf,
+  sphereAt, staticAt, timingsAt, type Wall, wallOf,
 } from "./records.js";
 import { eventRecord } from "./response.js";
 import {
@@ -116,6 +116,16 @@ export interface BusyBody {
   accelerationLimit: number;
   /** Largest deviation from the planned acceleration that reported velocities prove. */
   largestAcceleration: number;
+}
+
+/** Seconds that a world has taken. */
+export interface Timings {
+  /** Number of calls that advance it. */
+  advances: number;
+  /** In these calls, with those of probes. */
+  advance: number;
+  /** In probes. */
+  probes: number;
 }
 
 /** What world_views() in browser/module/looking.cpp writes: a ks_body_view, and five numbers. */
@@ -274,6 +284,20 @@ export class WorldView extends Owned {
           largestAcceleration: row.number(busyBodyAt.largestAcceleration),
         };
       }));
+  }
+  /** Where the time went since profiling was switched on (World.setProfiling). */
+  get timings(): Timings {
+    const module = theModule();
+    return module.with(() => {
+      const at = module.room(timingsAt.size);
+      module.check("ks_world_timings", this.address, at);
+      const from = module.at(at);
+      return {
+        advances: from.whole(timingsAt.advances),
+        advance: from.number(timingsAt.advance),
+        probes: from.number(timingsAt.probes),
+      };
+    });
   }
   /** Returns three numbers for each certificate: two ids, -1 for the walls, and its failure time. */
   certificates(): Float64Array {
@@ -710,6 +734,10 @@ export class World extends WorldView {
       add(at);
       return module.at(at).id(0);
     });
+  }
+  /** Reserves memory for this number of bodies in total. */
+  reserve(bodies: number): void {
+    theModule().check("ks_world_reserve", this.address, whole(bodies, 2 ** 32 - 1, "bodies", "reserve"));
   }
   /** Removes a body. Its contacts end with events; its id is stale for ever. */
   remove(body: BodyId): void {
