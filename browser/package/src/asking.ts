@@ -1,7 +1,7 @@
 // Callbacks of an advancing world: states of bodies, and responses to events.
 import { BodyMap } from "./body_map.js";
 import { type Event, eventFrom } from "./event.js";
-import type { Callback, Module, Value } from "./module.js";
+import { type Argument, type Callback, type Module, theModule, type Value } from "./module.js";
 import { Motion } from "./motion.js";
 import { checkKeys, type Keys, refusePromise, requireNumbers, shown } from "./options.js";
 import { type BodyAction, bodyActions, type gameAt, responseAt, type runAt } from "./records.js";
@@ -78,21 +78,19 @@ function actionNumber(action: BodyAction | undefined, what: string): number {
   return number;
 }
 
-/** Calls action(probe of C, its argument). */
-export function withProbe<T>(module: Module, probe: Probe, call: string, action: (probe: number, user: number) => T): T {
+/** Returns the arguments of C for a probe. */
+export function probing(probe: Probe, call: string): [probe: Argument, user: Argument] {
   if (probe instanceof Motion || probe instanceof BodyMap) {
-    const { address } = probe;
-    const pointer = module.pointer(probe instanceof Motion ? "probe_motion" : "probe_map");
-    return module.asking(null, [address], () => action(pointer, Number(address)));
+    const pointer = theModule().pointer(probe instanceof Motion ? "probe_motion" : "probe_map");
+    return [pointer, (module) => module.use(probe.address)];
   }
   if (typeof probe !== "function") throw new TypeError(`${call}: probe must be a function, a Motion or a BodyMap`);
-  const asked: Callback = (bodies, count, time, states) => {
+  return [theModule().pointer("probe"), (module) => module.hold((bodies, count, time, states) => {
     // The function may call the module, so its memory may grow.
     const answer = new Float64Array(6 * count!).fill(NaN);
     refusePromise(probe(module.idsAt(bodies!, count!), time!, answer), "probe");
     module.f64.set(answer, states! >> 3);
-  };
-  return module.asking(asked, [], (user) => action(module.pointer("probe"), user));
+  })];
 }
 
 /** Returns the callback of a ks_rotation_probe. */

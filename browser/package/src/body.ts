@@ -1,7 +1,7 @@
 // Definitions of bodies, and shapes.
 import { type Box, boxKeys } from "./definition.js";
 import type { Filter } from "./filter.js";
-import type { Module } from "./module.js";
+import type { Argument, Module } from "./module.js";
 import { checkKeys, type Keys, requireNumbers } from "./options.js";
 import { bodyAt, type BodyFields, bodyFieldKeys, type MotionLimits, motionLimitsFieldKeys, putBodyFields, shapeAt } from "./records.js";
 import { type PerBody, type States, type Vec3, vector } from "./state.js";
@@ -105,17 +105,17 @@ export function shapeFrom([kind, ...parts]: number[]): Shape {
   };
 }
 
-/** Calls action(address of a ks_shape). */
-export function withShape<T>(module: Module, shape: Shape, call: string, action: (shape: number) => T): T {
+/** Returns a ks_shape as an argument. */
+export function shapeRecord(shape: Shape, call: string): (module: Module) => number {
   checkKeys<Partial<Record<ShapeName, unknown>>>(shape, shapeKeys, "shape", call);
-  return module.with(() => {
+  return (module) => {
     const at = module.room(shapeAt.size);
     const put = (kind: number, what: string, points: readonly Vec3[], number = 0) => {
       module.putWord(at, kind);
       for (const [k, point] of points.entries())
         module.putVector(at + shapeAt.points + 24 * k, vector(point, what, call));
       module.putNumber(at + shapeAt.number, number);
-      return action(at);
+      return at;
     };
     if ("ball" in shape) {
       checkKeys(shape.ball, ballKeys, "ball", call);
@@ -127,21 +127,17 @@ export function withShape<T>(module: Module, shape: Shape, call: string, action:
     }
     if ("box" in shape) {
       checkKeys(shape.box, boxKeys, "box", call);
-      vector(shape.box.lower, "lower", call);
-      return put(2, "upper", [shape.box.lower, shape.box.upper]);
+      return put(2, "upper", [vector(shape.box.lower, "lower", call), shape.box.upper]);
     }
     if ("triangle" in shape) return put(3, "triangle", shape.triangle);
     if (!("mesh" in shape || "chain" in shape))
       throw new TypeError(`${call}: shape must be a ball, a halfSpace, a box, a triangle, a mesh or a chain`);
     const mesh = "mesh" in shape ? meshOf(module, shape.mesh, call) : chainOf(module, shape.chain, call);
-    try {
-      module.putWord(at, 4);
-      module.u64[(at + shapeAt.number) >> 3] = mesh;
-      return action(at);
-    } finally {
-      module.check("ks_mesh_destroy", mesh);
-    }
-  });
+    module.finally(() => module.check("ks_mesh_destroy", mesh));
+    module.u64[(at + shapeAt.number) >> 3] = mesh;
+    module.putWord(at, 4);
+    return at;
+  };
 }
 
 function chainOf(module: Module, chain: ArrayLike<number>, call: string): bigint {
@@ -149,7 +145,7 @@ function chainOf(module: Module, chain: ArrayLike<number>, call: string): bigint
   if (chain.length % 2 !== 0) throw new TypeError(`${call}: chain must have two numbers for each point, but there are ${chain.length}`);
   const points = new Float64Array(1.5 * chain.length);
   for (let k = 0; k < chain.length; ++k) points[k + (k >> 1)] = chain[k]!;
-  return module.handle("ks_mesh_create_chain", module.numbers(points), chain.length / 2);
+  return module.handle("ks_mesh_create_chain", points, chain.length / 2);
 }
 
 function meshOf(module: Module, mesh: MeshShape, call: string): bigint {
@@ -161,17 +157,19 @@ function meshOf(module: Module, mesh: MeshShape, call: string): bigint {
   }
   // No vertex has the largest number.
   const corners = Array.from(mesh.corners, (corner) => (Number.isInteger(corner) && corner >= 0 && corner < 2 ** 32 ? corner : -1));
-  return module.handle("ks_mesh_create", module.numbers(mesh.vertices), mesh.vertices.length / 3, module.words(corners),
-                       corners.length / 3);
+  return module.handle("ks_mesh_create", Float64Array.from(mesh.vertices), mesh.vertices.length / 3,
+                       (to) => to.words(corners), corners.length / 3);
 }
 
-/** Returns the address of a ks_body_definition, for the duration of a call. */
-export function bodyRecord(module: Module, body: BodyFields, call: string): number {
-  const at = module.record(bodyAt);
-  putBodyFields(module, at, body, call);
-  return at;
+/** Returns a ks_body_definition as an argument. */
+export function bodyRecord(body: BodyFields, call: string): (module: Module) => number {
+  return (module) => {
+    const at = module.record(bodyAt);
+    putBodyFields(module, at, body, call);
+    return at;
+  };
 }
 /** Does the same for a body whose state and limits come from a motion. */
-export function movedRecord(module: Module, body: MovedBodyDefinition, call: string): number {
-  return bodyRecord(module, { ...body, position: [0, 0, 0] }, call);
+export function movedRecord(body: MovedBodyDefinition, call: string): Argument {
+  return bodyRecord({ ...body, position: [0, 0, 0] }, call);
 }

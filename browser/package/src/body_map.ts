@@ -1,9 +1,9 @@
 // BodyMap: which body of a world is which body of which motion.
 import {
-  type MovedBodyDefinition, movedBodyKeys, movedKeys, type MovedOptions, movedRecord, type Shape, withShape,
+  type MovedBodyDefinition, movedBodyKeys, movedKeys, type MovedOptions, movedRecord, type Shape, shapeRecord,
 } from "./body.js";
-import { type Module, Owned, theModule, type Value } from "./module.js";
-import { type FrameMotion, type Motion, numberIn, rotationArguments, timeArgument } from "./motion.js";
+import { type Argument, Id, Ids, Owned, theModule, type Value } from "./module.js";
+import { type FrameMotion, type Motion, numberIn, timeAndRotations } from "./motion.js";
 import { checkKeys, requireNumbers } from "./options.js";
 import { movedRigidRecords, type MovedRigidBodyDefinition, type RigidPart } from "./rigid_body.js";
 import { type BodyId, countOf, each, type PerBody, sixOf, type State, type Vec3, vector } from "./state.js";
@@ -38,25 +38,20 @@ export class BodyMap extends Owned {
   add(world: World, motion: Motion, number: number, body: MovedBodyDefinition = {}): BodyId {
     const call = "BodyMap.add";
     checkKeys(body, movedBodyKeys, "body", call);
-    return this.added(world, motion, number, call, (module, addresses, id) =>
-      module.check("map_add", ...addresses, movedRecord(module, body, call), id));
+    return this.added("map_add", world, motion, number, call, movedRecord(body, call));
   }
   /** Adds a body of a motion that carries a box, a triangle or a mesh: see World.addMovingShape(). Returns its id. */
   addMovingShape(world: World, motion: Motion, number: number, shape: Shape, options: MovedOptions = {}): BodyId {
     const call = "BodyMap.addMovingShape";
     checkKeys(options, movedKeys, "options", call);
-    return this.added(world, motion, number, call, (module, addresses, id) => withShape(module, shape, call, (made) =>
-      module.check("map_add_moving_shape", ...addresses, made, movedRecord(module, options, call), id)));
+    return this.added("map_add_moving_shape", world, motion, number, call, shapeRecord(shape, call), movedRecord(options, call));
   }
   /** Adds a body of a motion as the position of a rigid body: see World.addRigidBody(). Returns its id. */
   addRigidBody(
     world: World, motion: Motion, number: number, parts: readonly RigidPart[], body: MovedRigidBodyDefinition = {},
   ): BodyId {
     const call = "BodyMap.addRigidBody";
-    return this.added(world, motion, number, call, (module, addresses, id) => {
-      const [like, rigid] = movedRigidRecords(module, parts, body, call);
-      module.check("map_add_rigid_body", ...addresses, like, rigid, id);
-    });
+    return this.added("map_add_rigid_body", world, motion, number, call, ...movedRigidRecords(parts, body, call));
   }
   /**
    * Adds all bodies of the motion in the order of their numbers or, after an error, none. Returns their ids. Radii are
@@ -70,8 +65,7 @@ export class BodyMap extends Owned {
     const module = theModule();
     const ids = module.with(() => {
       const found = module.room(12 * sizes.length);
-      const added = module.word("map_add_all", this.address, ...addresses, sizes.length, module.numbers(sizes),
-                                movedRecord(module, options, call), found);
+      const added = this.word("map_add_all", ...addresses, sizes.length, sizes, movedRecord(options, call), found);
       return module.idsAt(found, added);
     });
     this.keep(motion);
@@ -80,15 +74,15 @@ export class BodyMap extends Owned {
   /** Sets the velocity at world.time, in the motion and in the world. */
   setVelocity(world: World, body: BodyId, velocity: Vec3): void {
     const call = "BodyMap.setVelocity";
-    this.change("map_set_velocity", world, body, vector(velocity, "velocity", call), call);
+    this.change("map_set_velocity", world, body, call, vector(velocity, "velocity", call));
   }
   /** Sets the state at world.time, in the motion and in the world. */
   teleport(world: World, body: BodyId, state: State): void {
-    this.change("map_teleport", world, body, sixOf(state, "BodyMap.teleport"), "BodyMap.teleport");
+    this.change("map_teleport", world, body, "BodyMap.teleport", sixOf(state, "BodyMap.teleport"));
   }
   /** Removes the body. A motion that does not support removal keeps it, but is no longer asked for it. */
   remove(world: World, body: BodyId): void {
-    this.change("map_remove", world, body, null, "BodyMap.remove");
+    this.change("map_remove", world, body, "BodyMap.remove");
   }
   /**
    * Adds the next frame of a FrameMotion, three numbers for each of its bodies. The world learns all new velocities, so
@@ -101,10 +95,7 @@ export class BodyMap extends Owned {
   ): void {
     const call = "BodyMap.push";
     const count = countOf(positions, call);
-    const module = theModule();
-    module.with(() => module.check(
-      "map_push", this.address, ...addressesOf(world, frames, call), count, module.numbers(positions),
-      timeArgument(module, time), ...rotationArguments(module, rotations, call)));
+    this.check("map_push", ...addressesOf(world, frames, call), count, positions, ...timeAndRotations(time, rotations, call));
   }
   /**
    * Returns seven numbers for each: orientation w, x, y, z and angular velocity, as a RotationProbeFunction sets them.
@@ -114,31 +105,21 @@ export class BodyMap extends Owned {
    */
   rotations(time: number, bodies: ArrayLike<BodyId>): Float64Array {
     requireNumbers(bodies, "bodies", "BodyMap.rotations");
-    const module = theModule();
-    return module.with(() => {
-      const rotations = module.room(56 * bodies.length);
-      module.check("map_rotations", this.address, time, bodies.length, module.ids(bodies, "BodyMap.rotations"), rotations);
-      return module.numbersAt(rotations, 7 * bodies.length);
-    });
+    return this.read({ size: 56 * bodies.length }, "map_rotations", time, bodies.length, new Ids(bodies)).numbers;
   }
   /** Returns the motion and the number of the body there; null if this map does not know it. */
   find(body: BodyId): { motion: Motion; number: number } | null {
     const module = theModule();
     return module.with(() => {
       const number = module.room(8);
-      const place = module.call("map_find", this.address, module.id(body, "BodyMap.find"), number);
+      const place = module.call("map_find", this.address, new Id(body), number);
       return place < 0 ? null : { motion: this.#motions[place]!, number: module.i32[number >> 2]! };
     });
   }
   /** Returns six numbers for each: position and velocity, as Motion.states() does; NaN for unknown bodies. */
   states(time: number, bodies: ArrayLike<BodyId>): Float64Array {
     requireNumbers(bodies, "bodies", "BodyMap.states");
-    const module = theModule();
-    return module.with(() => {
-      const states = module.room(48 * bodies.length);
-      module.call("map_states", this.address, time, bodies.length, module.ids(bodies, "BodyMap.states"), states);
-      return module.numbersAt(states, 6 * bodies.length);
-    });
+    return this.read({ size: 48 * bodies.length }, "map_states", time, bodies.length, new Ids(bodies)).numbers;
   }
   /**
    * Returns a map of the same bodies, in which the motion to[k] stands for from[k]: for clones of a world and of its
@@ -147,37 +128,22 @@ export class BodyMap extends Owned {
   withMotions(from: readonly Motion[], to: readonly Motion[]): BodyMap {
     if (from.length !== to.length)
       throw new RangeError(`withMotions: to must have as many motions as from, ${from.length}, but has ${to.length}`);
-    const module = theModule();
-    const address = module.with(() => {
-      const addresses = (motions: readonly Motion[]) =>
-        module.words(motions.map((motion) => Number(Owned.addressOf(motion, "Motion", "motion", "withMotions"))));
-      return module.word("map_with_motions", this.address, from.length, addresses(from), addresses(to));
-    });
-    return new BodyMap(existing, address, to);
+    const addresses = (motions: readonly Motion[]): Argument => (module) =>
+      module.words(motions.map((motion) => Number(Owned.addressOf(motion, "Motion", "motion", "withMotions"))));
+    return new BodyMap(existing, this.word("map_with_motions", from.length, addresses(from), addresses(to)), to);
   }
 
   private keep(motion: Motion): void {
     if (!this.#motions.includes(motion)) this.#motions.push(motion);
   }
-  /** Calls add(), which adds a body of the motion and writes its id. */
-  private added(
-    world: World, motion: Motion, number: number, call: string,
-    add: (module: Module, addresses: Value[], id: number) => void,
-  ): BodyId {
-    const module = theModule();
-    const id = module.with(() => {
-      const at = module.room(16);
-      add(module, [this.address, ...addressesOf(world, motion, call), numberIn(number)], at);
-      return module.at(at).id(0);
-    });
+  /** Adds a body of a motion by this function of the module. */
+  private added(name: string, world: World, motion: Motion, number: number, call: string, ...body: Argument[]): BodyId {
+    const id = this.read({ size: 16 }, name, ...addressesOf(world, motion, call), numberIn(number), ...body).id(0);
     this.keep(motion);
     return id;
   }
-  private change(name: string, world: World, body: BodyId, numbers: number[] | null, call: string): void {
-    const address = Owned.addressOf(world, "World", "world", call);
-    const module = theModule();
-    module.with(() => module.check(name, this.address, address, module.id(body, call),
-                                   ...(numbers === null ? [] : [module.numbers(numbers)])));
+  private change(name: string, world: World, body: BodyId, call: string, ...numbers: number[][]): void {
+    this.check(name, Owned.addressOf(world, "World", "world", call), new Id(body), ...numbers);
   }
 }
 

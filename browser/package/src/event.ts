@@ -58,8 +58,7 @@ export class EventHash {
     const { numbers, from } = events instanceof Event ? events : events.records;
     const [first, count] = events instanceof Event ? [from >> 3, 1] : [0, events.length];
     module.with(() => {
-      const parts = module.numbers(this.parts);
-      const at = module.numbers(numbers.subarray(first, first + count * (eventAt.size / 8)));
+      const parts = module.numbers(this.parts), at = module.numbers(numbers.subarray(first, first + count * (eventAt.size / 8)));
       for (let k = 0; k < count; ++k) module.check("ks_event_hash_add", parts, at + k * eventAt.size);
       this.parts = module.numbersAt(parts, 2);
     });
@@ -67,8 +66,7 @@ export class EventHash {
   }
   /** 16 hexadecimal digits. */
   get value(): string {
-    const module = theModule();
-    return hexOf(module.with(() => module.handle("ks_event_hash_value", module.numbers(this.parts))));
+    return hexOf(theModule().handle("ks_event_hash_value", this.parts));
   }
   get count(): number {
     return Number(new BigUint64Array(this.parts.buffer)[1]);

@@ -3,7 +3,8 @@ import { answeringOf, answeringRecord, type RespondFunction } from "./asking.js"
 import { definitionRecord, type WorldDefinition } from "./definition.js";
 import { type Event, Events } from "./event.js";
 import { filterArguments, keptFilter, type PairFilter } from "./filter.js";
-import { type Module, theModule } from "./module.js";
+import type { Place } from "./memory.js";
+import { type Argument, Id, theModule } from "./module.js";
 import { checkKeys, type Keys, requireBytes, requireNumbers } from "./options.js";
 import { bodyListAt, eventAt, eventListAt, gameAt, type MotionLimits } from "./records.js";
 import type { Bounces, StepPotential } from "./response.js";
@@ -23,15 +24,18 @@ export interface GameOptions {
 
 const gameKeys: Keys<GameOptions> = { gravity: true, respond: true };
 
-/** Returns the address of a ks_game_definition, for the duration of a call, and what the game has to keep. */
-function gameRecord(module: Module, { respond, gravity = [0, 0, 0] }: GameOptions, call: string): [at: number, kept: unknown] {
+/** Returns a ks_game_definition as an argument, and what the game has to keep. */
+function gameRecord({ respond, gravity = [0, 0, 0] }: GameOptions, call: string): [definition: Argument, kept: unknown] {
   if (respond !== null && typeof respond === "object" && "masses" in respond)
     throw new TypeError(`${call}: respond must not have masses: those of the bodies count`);
+  const module = theModule();
   const answering = answeringOf(module, respond, call, true);
   const callback = answering.callback && module.keep(answering.callback);
-  const at = answeringRecord(module, gameAt, answering, callback?.number ?? 0);
-  module.putVector(at + gameAt.gravity, vector(gravity, "gravity", call));
-  return [at, callback ?? answering.kept];
+  return [() => {
+    const at = answeringRecord(module, gameAt, answering, callback?.number ?? 0);
+    module.putVector(at + gameAt.gravity, vector(gravity, "gravity", call));
+    return at;
+  }, callback ?? answering.kept];
 }
 
 /**
@@ -46,13 +50,14 @@ export class GameWorld extends World {
   constructor(definition: WorldDefinition = {}, options: GameOptions = {}, made: [handle: bigint, answering: unknown] | null = null) {
     const call = "GameWorld";
     checkKeys(options, gameKeys, "options", call);
-    const module = theModule();
-    const [handle, answering] = made ?? module.with(() => {
-      const [at, kept] = gameRecord(module, options, call);
-      return [module.handle("ks_game_create", definitionRecord(module, definition), at), kept];
-    });
-    super(handle);
-    this.#answering = answering;
+    if (made !== null) {
+      super(made[0]);
+      this.#answering = made[1];
+      return;
+    }
+    const [record, kept] = gameRecord(options, call);
+    super(theModule().handle("ks_game_create", definitionRecord(definition), record));
+    this.#answering = kept;
   }
   /** @internal */
   protected override get kind(): string {
@@ -68,17 +73,15 @@ export class GameWorld extends World {
     checkKeys(options, gameKeys, "options", call);
     const module = theModule();
     const filter = keptFilter(module, pairFilter, "pairFilter", call);
-    return module.with(() => {
-      const [at, kept] = gameRecord(module, options, call);
-      const handle = module.handle("ks_game_restore", module.bytesOf(snapshot), snapshot.length, at, ...filterArguments(module, filter));
-      const game = new GameWorld({}, {}, [handle, kept]);
-      game.keep(filter, null);
-      return game;
-    });
+    const [record, kept] = gameRecord(options, call);
+    const handle = module.handle("ks_game_restore", snapshot, snapshot.length, record, ...filterArguments(module, filter));
+    const game = new GameWorld({}, {}, [handle, kept]);
+    game.keep(filter, null);
+    return game;
   }
   /** Returns a copy with an equal future. */
   override clone(): GameWorld {
-    const copy = new GameWorld({}, {}, [theModule().handle("ks_world_clone", this.address), this.#answering]);
+    const copy = new GameWorld({}, {}, [this.handle("ks_world_clone"), this.#answering]);
     copy.keep(...this.kept());
     return copy;
   }
@@ -88,18 +91,12 @@ export class GameWorld extends World {
    * next step goes on from where the game stands then, and returns the events of this one, too.
    */
   step(dt: number): Events {
-    const module = theModule();
-    return module.with(() => {
-      const told = module.room(eventListAt.size);
-      module.check("ks_game_step", this.address, dt, told);
-      const size = eventAt.size * module.i32[(told + eventListAt.count) >> 2]!;
-      return new Events(module.copy(module.i32[(told + eventListAt.events) >> 2]!, size));
-    });
+    const told = this.read(eventListAt, "ks_game_step", dt);
+    return new Events(theModule().copy(told.word(eventListAt.events), eventAt.size * told.word(eventListAt.count)));
   }
   /** Advances to the next event, answers it and returns it, or to `until`, and returns null. */
   override advance(until: number): Event | null {
-    const module = theModule();
-    return this.next((event) => module.status("ks_world_advance", this.address, until, module.pointer("probe_game"), 0, event));
+    return this.next(until, theModule().pointer("probe_game"), 0);
   }
   /** Yields the events up to `until`, each answered already, for a loop in which bodies may be changed. */
   override *events(until: number): Generator<Event, void, undefined> {
@@ -107,41 +104,37 @@ export class GameWorld extends World {
   }
   /** Replaces what answers events; clones keep theirs. */
   setRespond(respond: GameOptions["respond"]): void {
-    const module = theModule();
-    module.with(() => {
-      const [at, kept] = gameRecord(module, respond === undefined ? {} : { respond }, "setRespond");
-      module.check("ks_game_set_response", this.address, at);
-      this.#answering = kept;
-    });
+    const [record, kept] = gameRecord(respond === undefined ? {} : { respond }, "setRespond");
+    this.check("ks_game_set_response", record);
+    this.#answering = kept;
   }
 
   /** The bodies that can move, disabled ones too: the last one takes the place of a removed one. Cost of each: a copy. */
   get ids(): Float64Array {
-    return this.listed((module, at, count) => module.idsAt(module.i32[(at + bodyListAt.ids) >> 2]!, count));
+    const bodies = this.bodyList;
+    return theModule().idsAt(bodies.word(bodyListAt.ids), bodies.word(bodyListAt.count));
   }
   /** Three numbers for each body, in the order of ids: where it is now, on periodic axes in the box. */
   get positions(): Float64Array {
-    return this.listed((module, at, count) => module.numbersAt(module.i32[(at + bodyListAt.positions) >> 2]!, 3 * count));
+    return this.listed("positions");
   }
   /** Three numbers for each body, in the order of ids: its velocity now. */
   get velocities(): Float64Array {
-    return this.listed((module, at, count) => module.numbersAt(module.i32[(at + bodyListAt.velocities) >> 2]!, 3 * count));
+    return this.listed("velocities");
   }
-  private listed<T>(read: (module: Module, list: number, count: number) => T): T {
-    const module = theModule();
-    return module.with(() => {
-      const at = module.room(bodyListAt.size);
-      module.check("ks_game_bodies", this.address, at);
-      return read(module, at, module.i32[(at + bodyListAt.count) >> 2]!);
-    });
+  private listed(what: "positions" | "velocities"): Float64Array {
+    const bodies = this.bodyList;
+    return theModule().numbersAt(bodies.word(bodyListAt[what]), 3 * bodies.word(bodyListAt.count));
+  }
+  private get bodyList(): Place {
+    return this.read(bodyListAt, "ks_game_bodies");
   }
   /** Returns the place of a body in these arrays, or -1. */
   indexOf(body: BodyId): number {
     const module = theModule();
     return module.with(() => {
       const at = module.room(8);
-      const status = module.call("ks_game_index_of", this.address, module.id(body, "indexOf"), at);
-      return status === 0 ? module.i32[at >> 2]! : -1;
+      return module.call("ks_game_index_of", this.address, new Id(body), at) === 0 ? module.i32[at >> 2]! : -1;
     });
   }
 
@@ -152,30 +145,22 @@ export class GameWorld extends World {
   setVelocities(velocities: ArrayLike<number>): void {
     const call = "setVelocities";
     requireNumbers(velocities, "velocities", call);
-    const count = this.listed((_module, _at, bodies) => bodies);
+    const count = this.bodyList.word(bodyListAt.count);
     if (velocities.length !== 3 * count)
       throw new RangeError(`${call}: velocities must have three numbers for each of ${count} bodies, but has ${velocities.length}`);
-    const module = theModule();
-    module.with(() => module.check("ks_game_set_velocities", this.address, module.numbers(velocities), count));
+    this.check("ks_game_set_velocities", velocities, count);
   }
   /** Sets the acceleration of a body besides the gravity (length / time^2): engines, wind. */
   setAcceleration(body: BodyId, acceleration: Vec3): void {
-    this.changeBy("ks_game_set_acceleration", body, vector(acceleration, "acceleration", "setAcceleration"));
+    this.check("ks_game_set_acceleration", new Id(body), vector(acceleration, "acceleration", "setAcceleration"));
   }
   /** Acceleration of all bodies (length / time^2). */
   get gravity(): Float64Array {
-    const module = theModule();
-    return module.with(() => {
-      const at = module.room(24);
-      module.check("ks_game_gravity", this.address, at);
-      return module.numbersAt(at, 3);
-    });
+    return this.read({ size: 24 }, "ks_game_gravity").numbers;
   }
   /** Sets the gravity of the game; wakes all that sleep. */
   setGravity(gravity: Vec3): void {
-    const numbers = vector(gravity, "gravity", "setGravity");
-    const module = theModule();
-    module.with(() => module.check("ks_game_set_gravity", this.address, module.numbers(numbers)));
+    this.check("ks_game_set_gravity", vector(gravity, "gravity", "setGravity"));
   }
 
   /** Throws: a game takes no motion. */

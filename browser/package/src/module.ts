@@ -1,6 +1,6 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // The WebAssembly module: the C library, its functions, and its errors as exceptions.
-import { callOf, isNumeric, Memory } from "./memory.js";
+import { callOf, isNumeric, Memory, type Place } from "./memory.js";
 import { checkKeys, type Keys, shown } from "./options.js";
 import type { ErrorCode } from "./records.js";
 
@@ -21,6 +21,16 @@ export class KinesphereError extends Error {
 
 /** What a function of the module takes: numbers, addresses, and handles of objects, which have 64 bits. */
 export type Value = number | bigint;
+/** The id of a body as an argument. */
+export class Id {
+  constructor(readonly body: number) {}
+}
+/** The ids of bodies as an argument. */
+export class Ids {
+  constructor(readonly bodies: ArrayLike<number>) {}
+}
+/** What calls take: numbers, and what is copied to the memory of the module; a function returns an address there. */
+export type Argument = Value | undefined | ArrayLike<number> | Id | Ids | ((module: Module) => Value);
 type Exports = { memory: WebAssembly.Memory } & Record<string, (...values: Value[]) => number>;
 
 /** A function of JavaScript that the module calls with numbers and addresses. */
@@ -40,12 +50,13 @@ export class Module extends Memory {
   private readonly pointers = new Map<string, number>();
   private lastCallback = 0;
   private thrown: { value: unknown } | null = null;
-  /** Motions and maps of running calls, which may not be freed. */
-  private readonly used: (number | bigint)[] = [];
-  /** Memory for the duration of calls, from `top` on; what does not fit is taken from the module. */
+  /** Objects of running calls, which may not be freed. */
+  private readonly used: Value[] = [];
+  /** Memory for the duration of calls, from `top` on. */
   private readonly arena: number;
   private top: number;
-  private readonly taken: number[] = [];
+  /** What has to be done when the call that is being prepared, or runs, has returned. */
+  private readonly ends: (() => void)[] = [];
   /** Where functions write one number. */
   private readonly result: number;
   private readonly capacities = new Map<string, number>();
@@ -84,65 +95,82 @@ export class Module extends Memory {
     this.see(this.exports.memory.buffer);
     this.exports["_initialize"]!();
     this.arena = this.top = this.exports["malloc"]!(arenaSize);
-    this.result = this.room(8);
+    this.result = this.room(16);
   }
 
   /** Calls a function and returns its result. The caller throws what a callback threw (rethrow). */
-  status(name: string, ...values: Value[]): number {
-    for (const value of values)
-      if (!isNumeric(value) && typeof value !== "bigint")
-        throw new TypeError(`${callOf(name)}: arguments must be numbers, but one is ${shown(value)}`);
-    return this.exports[name]!(...values);
+  status(name: string, ...values: Argument[]): number {
+    const top = this.top, count = this.ends.length;
+    try {
+      for (let k = 0; k < values.length; ++k)
+        if (typeof values[k] !== "number" && typeof values[k] !== "bigint") values[k] = this.argument(values[k], name);
+      return this.exports[name]!(...(values as Value[]));
+    } finally {
+      this.leave(top, count);
+    }
   }
   /** Does the same, and throws what a callback threw. */
-  call(name: string, ...values: Value[]): number {
+  call(name: string, ...values: Argument[]): number {
     const result = this.status(name, ...values);
     this.rethrow();
     return result;
   }
-  /** Calls a function that returns a status. Throws its error. */
-  check(name: string, ...values: Value[]): void {
+  /** Calls a function that returns a status or nothing. Throws its error. */
+  check(name: string, ...values: Argument[]): void {
     const status = this.call(name, ...values);
     if (status) throw this.error(status, name);
   }
-  /**
-   * Calls a function whose last three arguments are an array, its capacity and the number of elements of this size.
-   * Returns the address of the array and this number.
-   */
-  fill(size: number, name: string, ...values: Value[]): [address: number, count: number] {
-    for (let capacity = this.capacities.get(name) ?? 64; ;) {
-      const count = this.room(8), array = this.room(capacity * size);
-      const status = this.call(name, ...values, array, capacity, count);
-      if (status === 0) return [array, this.i32[count >> 2]!];
-      if (status !== bufferTooSmall) throw this.error(status, name);
-      capacity = Math.ceil(1.25 * this.i32[count >> 2]!);
-      this.capacities.set(name, capacity);
-    }
-  }
-  /** Returns a copy of the bytes that such a function gives. */
-  filledBytes(name: string, ...values: Value[]): Uint8Array {
-    return this.with(() => {
-      const [address, count] = this.fill(1, name, ...values);
-      return this.bytes.slice(address, address + count);
-    });
-  }
-  /** Calls a function that writes one number, and returns it. */
-  number(name: string, ...values: Value[]): number {
+  /** Calls a function that writes one number to its last argument, and returns it. */
+  number(name: string, ...values: Argument[]): number {
     this.check(name, ...values, this.result);
     return this.f64[this.result >> 3]!;
   }
   /** Does the same for a number of 32 bits: a count, a flag, an address. */
-  word(name: string, ...values: Value[]): number {
+  word(name: string, ...values: Argument[]): number {
     this.check(name, ...values, this.result);
     return this.i32[this.result >> 2]!;
   }
   /** Does the same for one of 64 bits, such as a handle. */
-  handle(name: string, ...values: Value[]): bigint {
+  handle(name: string, ...values: Argument[]): bigint {
     this.check(name, ...values, this.result);
     return this.u64[this.result >> 3]!;
   }
+  /** Calls a function that writes a record to its last argument, and returns a copy. */
+  read(layout: { readonly size: number }, name: string, ...values: Argument[]): Place {
+    return this.with(() => {
+      const at = this.record(layout);
+      this.check(name, ...values, at);
+      return this.copy(at, layout.size);
+    });
+  }
+  /**
+   * Calls a function whose last three arguments are an array, its capacity and the number of elements of this size.
+   * Returns what take(address of the array, this number) returns.
+   */
+  fill<T>(size: number, take: (address: number, count: number) => T, name: string, ...values: Argument[]): T {
+    return this.with(() => {
+      for (let capacity = this.capacities.get(name) ?? 64; ;) {
+        const count = this.room(8), array = this.room(capacity * size);
+        const status = this.call(name, ...values, array, capacity, count);
+        if (status === 0) return take(array, this.i32[count >> 2]!);
+        if (status !== bufferTooSmall) throw this.error(status, name);
+        capacity = Math.ceil(1.25 * this.i32[count >> 2]!);
+        this.capacities.set(name, capacity);
+      }
+    });
+  }
+  /** Returns what such a function gives, each element as read() makes it. */
+  rows<Row>(size: number, read: (row: Place) => Row, name: string, ...values: Argument[]): Row[] {
+    const all = (address: number, count: number) =>
+      Array.from({ length: count }, (_, k) => read(this.at(address + size * k)));
+    return this.fill(size, all, name, ...values);
+  }
+  /** Returns the bytes that such a function gives. */
+  filled(name: string, ...values: Argument[]): Uint8Array {
+    return this.fill(1, (address, count) => this.bytes.slice(address, address + count), name, ...values);
+  }
   /** Calls a function that answers with numbers, and returns a copy of them. */
-  answer(name: string, ...values: Value[]): Float64Array {
+  answer(name: string, ...values: Argument[]): Float64Array {
     this.check(name, ...values);
     return this.numbersAt(this.exports["answer_numbers"]!(), this.exports["answer_count"]!());
   }
@@ -162,18 +190,18 @@ export class Module extends Memory {
     this.forgottenCallbacks.register(kept, kept.number);
     return kept;
   }
-  /** Calls action(number of the callback), during which objects at these addresses may not be freed. */
-  asking<T>(callback: Callback | null, addresses: readonly Value[], action: (user: number) => T): T {
-    const user = callback === null ? 0 : ++this.lastCallback;
-    if (callback !== null) this.callbacks.set(user, callback);
-    const before = this.used.length;
-    this.used.push(...addresses);
-    try {
-      return action(user);
-    } finally {
-      this.callbacks.delete(user);
-      this.used.length = before;
-    }
+  /** Gives a callback a number until the call returns. */
+  hold(callback: Callback): number {
+    const number = ++this.lastCallback;
+    this.callbacks.set(number, callback);
+    this.ends.push(() => this.callbacks.delete(number));
+    return number;
+  }
+  /** Returns the address of an object, which may not be freed until the call returns. */
+  use(address: Value): Value {
+    this.used.push(address);
+    this.ends.push(() => this.used.pop());
+    return address;
   }
   /** True if a callback threw during the last call, which then has to rethrow. */
   get hasThrown(): boolean {
@@ -194,17 +222,14 @@ export class Module extends Memory {
   /** Returns the error of a failed call of this function. */
   error(status: number, name: string): Error {
     if (status === inUse) return new Error("kinesphere: an object cannot be freed while it asks for states or answers");
-    return this.with(() => {
-      const id = this.room(16);
-      this.exports["ks_last_error_body"]!(id);
-      const body = this.at(id).id(0);
-      return new KinesphereError(
-        this.text(this.exports["ks_last_error_message"]!()).replace(/^ks_\w+(?=:)/, callOf(name)),
-        this.text(this.exports["ks_status_name"]!(status)) as ErrorCode,
-        this.text(this.exports["ks_last_error_argument"]!()),
-        body < 0 ? null : body,
-      );
-    });
+    this.exports["ks_last_error_body"]!(this.result);
+    const body = this.at(this.result).id(0);
+    return new KinesphereError(
+      this.text(this.exports["ks_last_error_message"]!()).replace(/^ks_\w+(?=:)/, callOf(name)),
+      this.text(this.exports["ks_status_name"]!(status)) as ErrorCode,
+      this.text(this.exports["ks_last_error_argument"]!()),
+      body < 0 ? null : body,
+    );
   }
   /** Calls a function that ends an object. */
   free(name: string, address: Value): void {
@@ -215,15 +240,25 @@ export class Module extends Memory {
 
   /** Calls action(), and gives back the memory that it takes. */
   with<T>(action: () => T): T {
-    const top = this.top, count = this.taken.length;
+    const top = this.top, count = this.ends.length;
     try {
       return action();
     } finally {
-      this.top = top;
-      while (this.taken.length > count) this.exports["free"]!(this.taken.pop()!);
+      this.leave(top, count);
     }
   }
-  /** Returns the address of memory until the action of with() ends. */
+  private leave(top: number, count: number): void {
+    this.top = top;
+    while (this.ends.length > count) this.ends.pop()!();
+  }
+  /** Does this when the call has returned. */
+  finally(end: () => void): void {
+    this.ends.push(end);
+  }
+
+  // Memory until the call returns for which it is an argument, or the action of with().
+
+  /** Returns the address of memory of any content. */
   room(size: number): number {
     const at = this.top, end = at + ((size + 7) & ~7);
     if (end <= this.arena + arenaSize) {
@@ -232,7 +267,7 @@ export class Module extends Memory {
     }
     const address = this.exports["malloc"]!(Math.max(size, 8));
     if (address === 0) throw new RangeError(`kinesphere: there is no memory for ${size} bytes`);
-    this.taken.push(address);
+    this.ends.push(() => this.exports["free"]!(address));
     return address;
   }
   /** Returns a record of zeros, with its struct_size. */
@@ -251,24 +286,27 @@ export class Module extends Memory {
     this.f64.set(values, address >> 3);
     return address;
   }
-  bytesOf(values: Uint8Array): number {
-    const address = this.room(values.length);
-    this.bytes.set(values, address);
-    return address;
-  }
   words(values: ArrayLike<number>): number {
     const address = this.room(4 * values.length);
     this.i32.set(values, address >> 2);
     return address;
   }
-  id(body: number, call: string): number {
-    const address = this.room(16);
-    this.putId(address, body, call);
-    return address;
+  private argument(value: Argument | null, name: string): Value {
+    if (value === undefined) return NaN;
+    if (typeof value === "function") return value(this);
+    if (value instanceof Id) return this.ids([value.body], name);
+    if (value instanceof Ids) return this.ids(value.bodies, name);
+    if (value instanceof Uint8Array) {
+      const address = this.room(value.length);
+      this.bytes.set(value, address);
+      return address;
+    }
+    if (Array.isArray(value) || ArrayBuffer.isView(value)) return this.numbers(value as ArrayLike<number>);
+    throw new TypeError(`${callOf(name)}: arguments must be numbers, but one is ${shown(value)}`);
   }
-  ids(bodies: ArrayLike<number>, call: string): number {
+  private ids(bodies: ArrayLike<number>, name: string): number {
     const address = this.room(12 * bodies.length);
-    for (let k = 0; k < bodies.length; ++k) this.putId(address + 12 * k, bodies[k]!, call);
+    for (let k = 0; k < bodies.length; ++k) this.putId(address + 12 * k, bodies[k]!, name);
     return address;
   }
 
@@ -397,6 +435,28 @@ export abstract class Owned {
   protected get kind(): string {
     return "";
   }
+  // The calls of the module with these names, for this object.
+  /** @internal */
+  protected check(name: string, ...values: Argument[]): void { theModule().check(name, this.address, ...values); }
+  /** @internal */
+  protected number(name: string, ...values: Argument[]): number { return theModule().number(name, this.address, ...values); }
+  /** @internal */
+  protected word(name: string, ...values: Argument[]): number { return theModule().word(name, this.address, ...values); }
+  /** @internal */
+  protected handle(name: string, ...values: Argument[]): bigint { return theModule().handle(name, this.address, ...values); }
+  /** @internal */
+  protected told(name: string, ...values: Argument[]): Float64Array { return theModule().answer(name, this.address, ...values); }
+  /** @internal */
+  protected filled(name: string, ...values: Argument[]): Uint8Array { return theModule().filled(name, this.address, ...values); }
+  /** @internal */
+  protected read(layout: { readonly size: number }, name: string, ...values: Argument[]): Place {
+    return theModule().read(layout, name, this.address, ...values);
+  }
+  /** @internal */
+  protected rows<Row>(size: number, read: (row: Place) => Row, name: string, ...values: Argument[]): Row[] {
+    return theModule().rows(size, read, name, this.address, ...values);
+  }
+
   /** Frees its memory. The object must not be used afterwards. */
   free(): void {
     if (this.#address === 0) return;

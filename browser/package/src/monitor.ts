@@ -1,6 +1,5 @@
 // Monitor: certain statements about the separation of tracks that report irregularly, and predictions.
-import type { Place } from "./memory.js";
-import { type Callback, type Module, Owned, theModule, type Value } from "./module.js";
+import { type Argument, type Callback, type Module, Owned, theModule } from "./module.js";
 import {
   type FullMonitorDefinition, type MonitorDefinition, monitorDefinitionOf, monitorRecord,
 } from "./monitor_definition.js";
@@ -72,8 +71,7 @@ export class Monitor extends Owned {
   /** Restores a monitor from save(), called here or in any other program; it goes on identically. */
   static restore(snapshot: Uint8Array): Monitor {
     requireBytes(snapshot, "snapshot", "Monitor.restore");
-    const module = theModule();
-    return new Monitor(module.with(() => module.handle("ks_monitor_restore", module.bytesOf(snapshot), snapshot.length)));
+    return new Monitor(theModule().handle("ks_monitor_restore", snapshot, snapshot.length));
   }
 
   /**
@@ -86,17 +84,17 @@ export class Monitor extends Owned {
       const tracks = module.room(8), at = module.record(reportAt);
       module.putWhole(tracks, trackId(track, "track", "report"));
       putReport(module, at, report, "report");
-      module.check("ks_monitor_report", this.address, tracks, at, 1);
+      this.check("ks_monitor_report", tracks, at, 1);
     });
   }
   /** Accepts the reports one after the other or, after an error, none. */
   reportAll(reports: ReportBatch): void {
     const module = theModule();
-    module.with(() => module.check("ks_monitor_report", this.address, ...batchRecords(module, reports, "reportAll")));
+    module.with(() => this.check("ks_monitor_report", ...batchRecords(module, reports, "reportAll")));
   }
   /** Removes a track; the next advance() returns its event "dropped". */
   remove(track: TrackId): void {
-    theModule().check("ks_monitor_remove", this.address, BigInt(trackId(track, "track", "remove")));
+    this.check("ks_monitor_remove", BigInt(trackId(track, "track", "remove")));
   }
 
   /**
@@ -104,20 +102,11 @@ export class Monitor extends Owned {
    * their kind, ids and level. With `poll`, it requests a report of a track whose pair is about to turn undecided.
    */
   advance(until: number, poll?: Poll): MonitorEvent | null {
-    const module = theModule();
     if (poll !== undefined && typeof poll !== "function") throw new TypeError("advance: poll must be a function");
-    const pointer = poll === undefined ? 0 : module.pointer("poll");
-    return module.asking(poll === undefined ? null : polling(module, poll), [], (user) => this.next(until, pointer, user));
-  }
-  private next(until: number, poll: number, user: number): MonitorEvent | null {
-    const module = theModule();
-    return module.with(() => {
-      const at = module.record(monitorEventAt);
-      module.check("ks_monitor_advance", this.address, until, poll, user, at);
-      if (module.at(at).word(monitorEventAt.kind) === 0) return null;
-      const { numbers, words } = module.copy(at, monitorEventAt.size);
-      return new MonitorEvent(numbers, words);
-    });
+    const asked: Argument[] =
+      poll === undefined ? [0, 0] : [theModule().pointer("poll"), (module) => module.hold(polling(module, poll))];
+    const { numbers, words } = this.read(monitorEventAt, "ks_monitor_advance", until, ...asked);
+    return words[monitorEventAt.kind >> 2] === 0 ? null : new MonitorEvent(numbers, words);
   }
   /** Yields the events up to `until`. After an early exit the monitor stands at the last event. */
   *events(until: number, poll?: Poll): Generator<MonitorEvent, void, undefined> {
@@ -129,18 +118,13 @@ export class Monitor extends Owned {
   }
 
   get time(): number {
-    return theModule().number("ks_monitor_time", this.address);
+    return this.number("ks_monitor_time");
   }
   get definition(): FullMonitorDefinition {
-    const module = theModule();
-    return module.with(() => {
-      const at = module.record(monitorAt);
-      module.check("monitor_definition", this.address, at);
-      return monitorDefinitionOf(module, at);
-    });
+    return monitorDefinitionOf(theModule(), this.read(monitorAt, "monitor_definition"));
   }
   get counters(): MonitorCounters {
-    const numbers = theModule().answer("monitor_counters", this.address);
+    const numbers = this.told("monitor_counters");
     return {
       reports: numbers[0]!,
       late: numbers[1]!,
@@ -154,20 +138,20 @@ export class Monitor extends Owned {
   }
   /** Returns the ids of all tracks, in ascending order. */
   tracks(): Float64Array {
-    return Float64Array.from(this.rows("ks_monitor_tracks", 8, (row) => row.whole(0)));
+    return Float64Array.from(this.rows(8, (row) => row.whole(0), "ks_monitor_tracks"));
   }
   /** Number of tracks. */
   get size(): number {
-    return theModule().answer("monitor_counters", this.address)[8]!;
+    return this.told("monitor_counters")[8]!;
   }
   /** True if the monitor knows the track. */
   contains(track: TrackId): boolean {
     return Number.isSafeInteger(track) && track >= 0 &&
-           theModule().word("monitor_contains", this.address, BigInt(track)) !== 0;
+           this.word("monitor_contains", BigInt(track)) !== 0;
   }
   /** What is known of a track now. */
   track(track: TrackId): TrackView {
-    const numbers = theModule().answer("monitor_track", this.address, BigInt(trackId(track, "track", "track")));
+    const numbers = this.told("monitor_track", BigInt(trackId(track, "track", "track")));
     const places = Array.from({ length: (numbers.length - 3) / 9 }, (_, k): TrackPlace => {
       const place = numbers.subarray(3 + 9 * k, 12 + 9 * k);
       return {
@@ -181,55 +165,41 @@ export class Monitor extends Owned {
 
   /** Returns the verdict about two tracks at one level, with its forecast. */
   answer(first: TrackId, second: TrackId, level = 0): PairAnswer {
-    const module = theModule();
     const call = "answer";
-    return module.with(() => {
-      const at = module.record(pairAnswerAt);
-      module.check("ks_monitor_answer", this.address, BigInt(trackId(first, "first", call)),
-                   BigInt(trackId(second, "second", call)), whole(level, 2 ** 32 - 1, "level", call), at);
-      return pairAnswerOf(module.at(at));
-    });
+    return pairAnswerOf(this.read(pairAnswerAt, "ks_monitor_answer", BigInt(trackId(first, "first", call)),
+                                  BigInt(trackId(second, "second", call)), whole(level, 2 ** 32 - 1, "level", call)));
   }
   /** Returns the pairs that are not certainly apart, in the order of their ids and levels. */
   openPairs(): OpenPair[] {
-    return this.rows("ks_monitor_open_pairs", openPairAt.size, openPairOf);
+    return this.rows(openPairAt.size, openPairOf, "ks_monitor_open_pairs");
   }
   /** Returns the pairs that are predicted to come within a separation, in the order of their ids and levels. */
   predictedPairs(): PredictedPair[] {
-    return this.rows("ks_monitor_predicted_pairs", predictedPairAt.size, predictedPairOf);
+    return this.rows(predictedPairAt.size, predictedPairOf, "ks_monitor_predicted_pairs");
   }
   /** Number of pairs that are not certainly apart or were not at some time in the current window. */
   get openPairCount(): number {
-    return theModule().answer("monitor_counters", this.address)[9]!;
+    return this.told("monitor_counters")[9]!;
   }
   /** Returns tracks whose removal reduces openPairCount to at most `pairs`, those with most open pairs first. */
   crowd(pairs: number): Float64Array {
-    return theModule().answer("monitor_crowd", this.address, whole(pairs, 2 ** 32 - 1, "pairs", "crowd"));
+    return this.told("monitor_crowd", whole(pairs, 2 ** 32 - 1, "pairs", "crowd"));
   }
   /**
    * Returns the reports that are needed by `until` so that no verdict turns undecided before, in the order of their times.
    * Pairs are known only up to the end of the current window.
    */
   needed(until: number): ReportRequest[] {
-    return this.rows("ks_monitor_needed", reportRequestAt.size, reportRequestOf, until);
+    return this.rows(reportRequestAt.size, reportRequestOf, "ks_monitor_needed", until);
   }
   /** Returns the whole monitor, for Monitor.restore() in any process, including native ones. */
   save(): Uint8Array {
-    return theModule().filledBytes("ks_monitor_save", this.address);
-  }
-
-  private rows<Row>(name: string, size: number, of: (row: Place) => Row, ...values: Value[]): Row[] {
-    const module = theModule();
-    return module.with(() => {
-      const [address, count] = module.fill(size, name, this.address, ...values);
-      return Array.from({ length: count }, (_, k) => of(module.at(address + size * k)));
-    });
+    return this.filled("ks_monitor_save");
   }
 }
 
 function create(definition: MonitorDefinition): bigint {
-  const module = theModule();
-  return module.with(() => module.handle("ks_monitor_create", monitorRecord(module, definition)));
+  return theModule().handle("ks_monitor_create", (module) => monitorRecord(module, definition));
 }
 
 /** Returns the callback of a ks_poll. */

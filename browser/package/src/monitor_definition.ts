@@ -182,8 +182,7 @@ export function monitorRecord(module: Module, definition: MonitorDefinition): nu
 }
 
 /** Reads a ks_monitor_definition. */
-export function monitorDefinitionOf(module: Module, address: number): FullMonitorDefinition {
-  const from = module.at(address);
+export function monitorDefinitionOf(module: Module, from: Place): FullMonitorDefinition {
   const records = <T>(of: Place, first: number, count: number, size: number, read: (record: Place) => T) =>
     Array.from({ length: of.word(count) }, (_, k) => read(module.at(of.word(first) + size * k)));
   return {

@@ -1,5 +1,5 @@
 // Ready-made motions, which move bodies inside the module: their states need no call of JavaScript.
-import { type Module, Owned, theModule, type Value } from "./module.js";
+import { type Argument, Owned, theModule, type Value } from "./module.js";
 import { checkKeys, type Keys, requireNumbers, shown, whole } from "./options.js";
 import { bodyAt } from "./records.js";
 import { countOf, each, type PerBody, sixes, sixOf, type State, type States, type Vec3, vector } from "./state.js";
@@ -44,14 +44,9 @@ export class Motion extends Owned {
    */
   states(time: number, bodies?: ArrayLike<number>): Float64Array {
     if (bodies !== undefined) requireNumbers(bodies, "bodies", "states");
-    const module = theModule();
     const count = bodies?.length ?? this.size;
-    return module.with(() => {
-      const numbers = bodies === undefined ? 0 : module.words(Array.from(bodies, numberIn));
-      const states = module.room(48 * count);
-      module.call("motion_states", this.address, time, count, numbers, states);
-      return module.numbersAt(states, 6 * count);
-    });
+    const numbers: Argument = bodies === undefined ? 0 : (module) => module.words(Array.from(bodies, numberIn));
+    return this.read({ size: 48 * count }, "motion_states", time, count, numbers).numbers;
   }
   /** The state of a body at a time. Throws for an unknown body, and for a time before its last change. */
   state(body: number, time: number): State {
@@ -60,46 +55,34 @@ export class Motion extends Owned {
   }
   /** Returns the body's limits and state for a world. */
   definition(body: number, time: number): MotionDefinition {
-    const module = theModule();
-    return module.with(() => {
-      const at = module.room(bodyAt.size);
-      module.check("motion_definition", this.address, numberIn(body), time, at);
-      const from = module.copy(at, bodyAt.size);
-      return {
-        accelerationLimit: from.number(bodyAt.accelerationLimit),
-        plannedAcceleration: from.vector(bodyAt.plannedAcceleration),
-        positionError: from.number(bodyAt.positionError),
-        velocityError: from.number(bodyAt.velocityError),
-        ...from.state(bodyAt.position),
-      };
-    });
+    const from = this.read(bodyAt, "motion_definition", numberIn(body), time);
+    return {
+      accelerationLimit: from.number(bodyAt.accelerationLimit),
+      plannedAcceleration: from.vector(bodyAt.plannedAcceleration),
+      positionError: from.number(bodyAt.positionError),
+      velocityError: from.number(bodyAt.velocityError),
+      ...from.state(bodyAt.position),
+    };
   }
   /** Sets the velocity. Call World.setVelocity as well if a world has the body. */
   setVelocity(body: number, time: number, velocity: Vec3): void {
-    const numbers = vector(velocity, "velocity", "Motion.setVelocity");
-    const module = theModule();
-    module.with(() => module.check("motion_set_velocity", this.address, numberIn(body), time, module.numbers(numbers)));
+    this.check("motion_set_velocity", numberIn(body), time, vector(velocity, "velocity", "Motion.setVelocity"));
   }
   /** Sets the state. Call World.teleport as well if a world has the body. */
   teleport(body: number, time: number, state: State): void {
-    const numbers = sixOf(state, "Motion.teleport");
-    const module = theModule();
-    module.with(() => module.check("motion_teleport", this.address, numberIn(body), time, module.numbers(numbers)));
+    this.check("motion_teleport", numberIn(body), time, sixOf(state, "Motion.teleport"));
   }
   /** Removes the body. The next added body takes its number. */
   remove(body: number): void {
-    theModule().check("motion_remove", this.address, numberIn(body));
+    this.check("motion_remove", numberIn(body));
   }
   /** Adds a body that moves on from there; returns its number. Bodies that fly freely ignore the limit. */
   add(time: number, state: State, accelerationLimit = 0, orientation: ArrayLike<number> = [1, 0, 0, 0]): number {
     const call = "Motion.add";
     const numbers = sixOf(state, call);
-    const module = theModule();
-    return module.with(() => {
-      const [count, address] = rotationArguments(module, orientation, call);
-      if (count !== 1) throw new TypeError(`${call}: orientation must be four numbers w, x, y, z`);
-      return module.word("motion_add", this.address, time, module.numbers(numbers), accelerationLimit, address);
-    });
+    const [count, turned] = rotationArguments(orientation, call);
+    if (count !== 1) throw new TypeError(`${call}: orientation must be four numbers w, x, y, z`);
+    return this.word("motion_add", time, numbers, accelerationLimit, turned);
   }
   /** Returns an independent copy. */
   clone(): this {
@@ -132,9 +115,7 @@ function limited<Options extends LimitedMotion>(name: string, call: string, star
   const numbers = sixes(start, call);
   const count = numbers.length / 6;
   const limits = each(options.accelerationLimits, count, "accelerationLimits", call);
-  const module = theModule();
-  return new Made(module.with(() =>
-    module.word(name, count, module.numbers(numbers), module.numbers(limits), ...more, options.startTime ?? 0)));
+  return new Made(theModule().word(name, count, numbers, limits, ...more, options.startTime ?? 0));
 }
 
 /** The bodies of a Ballistic motion, and their gravity. */
@@ -161,9 +142,7 @@ function flying(start: States, options: BallisticOptions): Made {
   checkKeys(options, ballisticKeys, "options", call);
   const numbers = sixes(start, call);
   const gravity = vector(options.gravity ?? [0, 0, 0], "gravity", call);
-  const module = theModule();
-  return new Made(module.with(() => module.word(
-    "motion_ballistic", numbers.length / 6, module.numbers(numbers), module.numbers(gravity), options.startTime ?? 0)));
+  return new Made(theModule().word("motion_ballistic", numbers.length / 6, numbers, gravity, options.startTime ?? 0));
 }
 
 export interface RandomForcesOptions extends LimitedMotion {
@@ -196,9 +175,7 @@ export class SteeredMotion extends Motion {
   }
   /** Sets the acceleration from `time` on, within the body's limit. Needs no call of the world. */
   steer(body: number, time: number, acceleration: Vec3): void {
-    const numbers = vector(acceleration, "acceleration", "steer");
-    const module = theModule();
-    module.with(() => module.check("motion_steer", this.address, numberIn(body), time, module.numbers(numbers)));
+    this.check("motion_steer", numberIn(body), time, vector(acceleration, "acceleration", "steer"));
   }
 }
 
@@ -235,26 +212,25 @@ function framed(start: States, options: FrameMotionOptions): Made {
   const numbers = sixes(start, call);
   const count = numbers.length / 6;
   const limits = each(options.accelerationLimits ?? Infinity, count, "accelerationLimits", call);
-  const module = theModule();
-  return new Made(module.with(() => module.word(
-    "motion_frames", count, module.numbers(numbers), module.numbers(limits), options.interval ?? 1 / 60,
-    options.positionError ?? 0, ...rotationArguments(module, options.rotations, call), options.startTime ?? 0)));
+  return new Made(theModule().word(
+    "motion_frames", count, numbers, limits, options.interval ?? 1 / 60, options.positionError ?? 0,
+    ...rotationArguments(options.rotations, call), options.startTime ?? 0));
 }
 
-/** Returns the number of rotations and their address, which is 0 without any. */
-export function rotationArguments(
-  module: Module, rotations: ArrayLike<number> | undefined, call: string,
-): [count: number, address: number] {
+/** Returns the number of rotations and these, or 0 without any. */
+function rotationArguments(rotations: ArrayLike<number> | undefined, call: string): [count: number, rotations: Argument] {
   if (rotations === undefined) return [0, 0];
   requireNumbers(rotations, "rotations", call);
   if (rotations.length % 4 !== 0)
     throw new RangeError(`${call}: rotations must have four numbers w, x, y, z for each body, but has ${rotations.length}`);
-  return [rotations.length / 4, module.numbers(rotations)];
+  return [rotations.length / 4, rotations];
 }
 
-/** Returns the address of a time, which is 0 without one. */
-export function timeArgument(module: Module, time: number | undefined): number {
-  return time === undefined ? 0 : module.numbers([time]);
+/** Returns the last arguments of a push: a time, or 0 without one, and rotations. */
+export function timeAndRotations(
+  time: number | undefined, rotations: ArrayLike<number> | undefined, call: string,
+): [time: Argument, count: number, rotations: Argument] {
+  return [time === undefined ? 0 : [time], ...rotationArguments(rotations, call)];
 }
 
 /** A position with which a body violated its limit; see `FrameViolation` in kinesphere/motion/frame_motion.hpp. */
@@ -309,10 +285,7 @@ export class FrameMotion extends Motion {
     const positions = isAlone ? (first as ArrayLike<number>) : second;
     const time = isAlone ? second : third;
     const count = countOf(positions, call);
-    const module = theModule();
-    module.with(() => module.check(
-      "frames_push", this.address, world, count, module.numbers(positions), timeArgument(module, time),
-      ...rotationArguments(module, rotations, call)));
+    this.check("frames_push", world, count, positions, ...timeAndRotations(time, rotations, call));
   }
   /**
    * Adds a body that moves on from there, by default without a limit; returns its number. `orientation` counts in a
@@ -329,7 +302,7 @@ export class FrameMotion extends Motion {
   }
   /** Returns four numbers w, x, y, z for each body: its orientation at latestTime; none without rotations. */
   latestRotations(): Float64Array {
-    return theModule().answer("frames_latest_rotations", this.address);
+    return this.told("frames_latest_rotations");
   }
   /** Time of the last frame but one: states are known from here to latestTime. */
   get previousTime(): number {
@@ -340,14 +313,14 @@ export class FrameMotion extends Motion {
   }
   /** Bodies that violated their limits in the latest frame. The world has been informed of them. */
   violations(): FrameViolation[] {
-    const numbers = theModule().answer("frames_violations", this.address);
+    const numbers = this.told("frames_violations");
     return Array.from({ length: numbers.length / 6 }, (_, k) => {
       const [body, excess, acceleration] = numbers.subarray(6 * k, 6 * k + 3);
       return { body: body!, excess: excess!, acceleration: acceleration!, velocity: numbers.subarray(6 * k + 3, 6 * k + 6) };
     });
   }
   private frame(): Float64Array {
-    return theModule().answer("frames_latest", this.address);
+    return this.told("frames_latest");
   }
 }
 
@@ -371,7 +344,7 @@ export class RecordedTracks extends Motion {
   }
   /** Returns the times of the body's first and last sample. */
   span(body: number): { begin: number; end: number } {
-    const [begin, end] = theModule().answer("tracks_span", this.address, numberIn(body));
+    const [begin, end] = this.told("tracks_span", numberIn(body));
     return { begin: begin!, end: end! };
   }
 }
@@ -391,7 +364,5 @@ function alongTracks(tracks: readonly Track[]): Made {
     for (let k = 0; k < times.length; ++k)
       samples.push(times[k]!, positions[3 * k]!, positions[3 * k + 1]!, positions[3 * k + 2]!);
   }
-  const module = theModule();
-  return new Made(module.with(() => module.word(
-    "motion_tracks", tracks.length, module.numbers(tracks.map(({ times }) => times.length)), module.numbers(samples))));
+  return new Made(theModule().word("motion_tracks", tracks.length, tracks.map(({ times }) => times.length), samples));
 }

@@ -1,5 +1,5 @@
 // Replays of recordings.
-import { type Event, eventFrom, hexOf } from "./event.js";
+import { Event, hexOf } from "./event.js";
 import { Owned, theModule, type Value } from "./module.js";
 import { requireBytes } from "./options.js";
 import { eventAt } from "./records.js";
@@ -11,22 +11,17 @@ export class Replay extends Owned {
 
   /** Throws KinesphereError for a damaged recording, or bytes that are no recording. */
   constructor(recording: Uint8Array) {
-    const module = theModule();
     requireBytes(recording, "recording", "Replay");
-    super(module.with(() => module.handle("ks_replay_open", module.bytesOf(recording), recording.length, 0, 0)), "ks_replay_destroy");
+    super(theModule().handle("ks_replay_open", recording, recording.length, 0, 0), "ks_replay_destroy");
     this.view = new ReplayedWorld(this);
   }
   /** Repeats the next recorded advance, and returns its event if it had one. */
   advance(): Event | null {
-    const module = theModule();
-    return module.with(() => {
-      const at = module.record(eventAt);
-      module.check("ks_replay_advance", this.address, at);
-      return module.i32[(at + eventAt.kind) >> 2] === 0 ? null : eventFrom(module, at);
-    });
+    const { numbers, words } = this.read(eventAt, "ks_replay_advance");
+    return words[eventAt.kind >> 2] === 0 ? null : new Event(numbers, words);
   }
   get finished(): boolean {
-    return theModule().word("ks_replay_finished", this.address) !== 0;
+    return this.word("ks_replay_finished") !== 0;
   }
   /** Number of steps repeated so far, and of all steps. */
   get step(): number {
@@ -39,13 +34,13 @@ export class Replay extends Owned {
     const module = theModule();
     return module.with(() => {
       const at = module.room(8);
-      module.check("ks_replay_steps", this.address, at, at + 4);
+      this.check("ks_replay_steps", at, at + 4);
       return [module.i32[at >> 2]!, module.i32[(at + 4) >> 2]!];
     });
   }
   /** 16 hexadecimal digits of all outcomes so far: events, and the work that led to them. */
   get hash(): string {
-    return hexOf(theModule().handle("ks_replay_hash", this.address));
+    return hexOf(this.handle("ks_replay_hash"));
   }
   /** The world after the last step. */
   get world(): WorldView {

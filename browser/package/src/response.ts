@@ -104,34 +104,30 @@ export function bounce(contact: Event, options: BounceOptions = {}): Bounce {
   checkBounce(options, "bounce");
   const { firstMass = contact.firstMass, secondMass = contact.secondMass, restitution = 1, restingSpeed = 0 } = options;
   const module = theModule();
-  return module.with(() => {
-    const event = eventRecord(module, contact);
-    const at = module.record(responseAt);
-    if (options.roughness !== undefined) {
-      const rough = module.record(roughnessAt);
-      putRoughness(module, rough, restitution, options.roughness, "bounce");
-      module.check("ks_bounce_rough", event, rough, at);
-    } else {
-      module.putNumber(event + eventAt.firstMass, firstMass);
-      module.putNumber(event + eventAt.secondMass, secondMass);
-      module.check("ks_bounce", event, restitution, restingSpeed, at);
-    }
-    const from = module.copy(at, responseAt.size);
-    // A body that is not turned keeps its velocity.
-    const after = (turns: number, velocity: number, before: Vec3) => (from.word(turns) ? from.vector(velocity) : before);
-    return {
-      [bounced]: true,
-      first: after(responseAt.turnsFirst, responseAt.firstVelocity, contact.firstState.velocity),
-      second: after(responseAt.turnsSecond, responseAt.secondVelocity, contact.secondState.velocity),
-      ...(from.word(responseAt.spinsFirst) ? { firstAngularVelocity: from.vector(responseAt.firstAngularVelocity) } : {}),
-      ...(from.word(responseAt.spinsSecond) ? { secondAngularVelocity: from.vector(responseAt.secondAngularVelocity) } : {}),
-    };
-  });
+  const weighed = eventRecord(contact).slice();
+  weighed[eventAt.firstMass >> 3] = firstMass;
+  weighed[eventAt.secondMass >> 3] = secondMass;
+  const from = options.roughness === undefined
+    ? module.read(responseAt, "ks_bounce", weighed, restitution, restingSpeed)
+    : module.read(responseAt, "ks_bounce_rough", eventRecord(contact), (to) => {
+      const at = to.room(roughnessAt.size);
+      putRoughness(to, at, restitution, options.roughness!, "bounce");
+      return at;
+    });
+  // A body that is not turned keeps its velocity.
+  const after = (turns: number, velocity: number, before: Vec3) => (from.word(turns) ? from.vector(velocity) : before);
+  return {
+    [bounced]: true,
+    first: after(responseAt.turnsFirst, responseAt.firstVelocity, contact.firstState.velocity),
+    second: after(responseAt.turnsSecond, responseAt.secondVelocity, contact.secondState.velocity),
+    ...(from.word(responseAt.spinsFirst) ? { firstAngularVelocity: from.vector(responseAt.firstAngularVelocity) } : {}),
+    ...(from.word(responseAt.spinsSecond) ? { secondAngularVelocity: from.vector(responseAt.secondAngularVelocity) } : {}),
+  };
 }
 
-/** Returns the address of a copy of an event, for the duration of a call. */
-export function eventRecord(module: Module, { numbers, from }: Event): number {
-  return module.numbers(numbers.subarray(from >> 3, (from + eventAt.size) >> 3));
+/** Returns the ks_event of an event. */
+export function eventRecord({ numbers, from }: Event): Float64Array {
+  return numbers.subarray(from >> 3, (from + eventAt.size) >> 3);
 }
 
 /** The energy of a pair, as a function of the gap between its surfaces (kinesphere/step_potential.hpp). */
@@ -165,14 +161,14 @@ export class StepPotential extends Owned {
     if (energies.length !== distances.length)
       throw new RangeError(`${call}: energies must be as many as distances, ${distances.length}, but are ${energies.length}`);
     const module = theModule();
-    const potential = module.with(() => {
+    const potential = module.handle("ks_step_potential_create", world.address, () => {
       const at = module.record(stepPotentialAt);
       module.putWord(at + stepPotentialAt.count, distances.length);
       module.putWord(at + stepPotentialAt.distances, module.numbers(distances));
       module.putWord(at + stepPotentialAt.energies, module.numbers(energies));
       module.putNumber(at + stepPotentialAt.outside, outside);
       module.putNumber(at + stepPotentialAt.restitution, restitution);
-      return module.handle("ks_step_potential_create", world.address, at);
+      return at;
     });
     const block = new Block(8, "ks_step_potential_destroy", potential);
     module.u64[block.address >> 3] = potential;
@@ -184,17 +180,12 @@ export class StepPotential extends Owned {
   /** At a step the two gain or lose what their energy changes by, or are turned back; at a contact they bounce. */
   respond(event: Event): Answer {
     if (!(event instanceof Event)) throw new TypeError(`respond: event must be an Event, but is ${shown(event)}`);
-    const module = theModule();
-    return module.with(() => {
-      const at = module.record(responseAt);
-      module.check("ks_step_potential_respond", this.potential, eventRecord(module, event), at);
-      const from = module.copy(at, responseAt.size);
-      return {
-        ...(from.word(responseAt.turnsFirst) ? { first: from.vector(responseAt.firstVelocity) } : {}),
-        ...(from.word(responseAt.turnsSecond) ? { second: from.vector(responseAt.secondVelocity) } : {}),
-        ...(from.word(responseAt.turnedBack) ? { turnedBack: true } : {}),
-      };
-    });
+    const from = theModule().read(responseAt, "ks_step_potential_respond", this.potential, eventRecord(event));
+    return {
+      ...(from.word(responseAt.turnsFirst) ? { first: from.vector(responseAt.firstVelocity) } : {}),
+      ...(from.word(responseAt.turnsSecond) ? { second: from.vector(responseAt.secondVelocity) } : {}),
+      ...(from.word(responseAt.turnedBack) ? { turnedBack: true } : {}),
+    };
   }
   /** Returns the potential energy of a pair with this gap (length). */
   energy(gap: number): number {

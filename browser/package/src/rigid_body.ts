@@ -1,6 +1,6 @@
 // Rigid bodies: balls, capsules, boxes and convex hulls that move and turn together.
 import { bodyRecord, movedKeys, type MovedOptions, type ShapeCarrier, shapeCarrierKeys } from "./body.js";
-import type { Module } from "./module.js";
+import type { Argument } from "./module.js";
 import { checkKeys, type Keys, requireNumbers, shown } from "./options.js";
 import { rigidAt, rigidHullAt } from "./records.js";
 import { type Vec3, vector } from "./state.js";
@@ -130,39 +130,38 @@ export function partsFrom(numbers: Float64Array): RigidPart[] {
   return parts;
 }
 
-/** Returns the addresses of a ks_body_definition and a ks_rigid_definition, whose parts are hulls, in their order. */
-export function rigidRecords(
-  module: Module, parts: readonly RigidPart[], body: RigidBodyDefinition, call: string,
-): [body: number, rigid: number] {
+/** Returns a ks_body_definition and a ks_rigid_definition, whose parts are hulls, in their order, as arguments. */
+export function rigidRecords(parts: readonly RigidPart[], body: RigidBodyDefinition, call: string): [body: Argument, rigid: Argument] {
   checkKeys(body, rigidBodyKeys, "body", call);
   if (!Array.isArray(parts)) throw new TypeError(`${call}: parts must be an array, but is ${shown(parts)}`);
   const {
     orientation = [1, 0, 0, 0], angularVelocity = [0, 0, 0], angularAccelerationLimit = 0, largestAngularSpeed = Infinity,
     inertia = [0, 0, 0], ...rest
   } = body;
-  const record = bodyRecord(module, rest, call);
-  const at = module.record(rigidAt);
-  module.putVector(at + rigidAt.rotation, numbersOfRotation({ orientation, angularVelocity }, call));
-  module.putNumber(at + rigidAt.angularAccelerationLimit, angularAccelerationLimit);
-  module.putNumber(at + rigidAt.largestAngularSpeed, largestAngularSpeed);
-  module.putVector(at + rigidAt.inertia, vector(inertia, "inertia", call));
-  const hulls = parts.map((part) => hullOf(part, call));
-  const first = module.room(rigidHullAt.size * hulls.length);
-  for (const [k, [radius, points]] of hulls.entries()) {
-    const hull = first + rigidHullAt.size * k;
-    module.putWord(hull + rigidHullAt.pointCount, points.length);
-    module.putWord(hull + rigidHullAt.points, module.numbers(points.flat()));
-    module.putNumber(hull + rigidHullAt.radius, radius);
-  }
-  module.putWord(at + rigidAt.hullCount, hulls.length);
-  module.putWord(at + rigidAt.hulls, first);
-  return [record, at];
+  return [bodyRecord(rest, call), (module) => {
+    const at = module.record(rigidAt);
+    module.putVector(at + rigidAt.rotation, numbersOfRotation({ orientation, angularVelocity }, call));
+    module.putNumber(at + rigidAt.angularAccelerationLimit, angularAccelerationLimit);
+    module.putNumber(at + rigidAt.largestAngularSpeed, largestAngularSpeed);
+    module.putVector(at + rigidAt.inertia, vector(inertia, "inertia", call));
+    const first = module.room(rigidHullAt.size * parts.length);
+    for (const [k, part] of (parts as readonly RigidPart[]).entries()) {
+      const [radius, points] = hullOf(part, call);
+      const hull = first + rigidHullAt.size * k;
+      module.putWord(hull + rigidHullAt.pointCount, points.length);
+      module.putWord(hull + rigidHullAt.points, module.numbers(points.flat()));
+      module.putNumber(hull + rigidHullAt.radius, radius);
+    }
+    module.putWord(at + rigidAt.hullCount, parts.length);
+    module.putWord(at + rigidAt.hulls, first);
+    return at;
+  }];
 }
 
 /** Does the same for a body whose state and limits come from a motion. */
 export function movedRigidRecords(
-  module: Module, parts: readonly RigidPart[], body: MovedRigidBodyDefinition, call: string,
-): [body: number, rigid: number] {
+  parts: readonly RigidPart[], body: MovedRigidBodyDefinition, call: string,
+): [body: Argument, rigid: Argument] {
   checkKeys(body, movedRigidBodyKeys, "body", call);
-  return rigidRecords(module, parts, { ...body, position: [0, 0, 0] }, call);
+  return rigidRecords(parts, { ...body, position: [0, 0, 0] }, call);
 }

@@ -3,6 +3,7 @@ import { type Definition, definitionOf } from "./definition.js";
 import { Owned, theModule } from "./module.js";
 import { Made, Motion } from "./motion.js";
 import { checkKeys, type Keys } from "./options.js";
+import { worldAt } from "./records.js";
 
 /** Changes of the built-in scene; see `kinesphere run --help`. */
 export interface SceneSettings {
@@ -54,8 +55,7 @@ export class Scene extends Owned {
         throw new RangeError(`Scene: ${key} must be a whole number from 0 to 2^32 - 1, but is ${value}`);
     }
     const module = theModule();
-    super(module.with(() =>
-      module.word("scene_create", place, module.numbers(sceneSettings.map((key) => settings[key] ?? NaN)))), "scene_free");
+    super(module.word("scene_create", place, sceneSettings.map((key) => settings[key] ?? NaN)), "scene_free");
   }
 
   get endTime(): number {
@@ -63,11 +63,11 @@ export class Scene extends Owned {
   }
   /** Radius of each body. */
   get radii(): Float64Array {
-    return theModule().answer("scene_radii", this.address);
+    return this.told("scene_radii");
   }
   /** The definition of the scene's world. */
   get definition(): Definition {
-    return definitionOf(theModule(), "scene_definition", this.address);
+    return definitionOf(this.read(worldAt, "scene_definition"));
   }
   /** Returns a new motion of the bodies from the start. */
   motion(): Motion {

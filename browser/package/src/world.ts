@@ -3,24 +3,24 @@ import {
   type AnswerOptions, answerKeys, type Limits, type PairOptions, pairKeys, type QueriesOptions, queriesKeys, queryKeys,
   type QueryOptions,
 } from "./answers.js";
-import { answeringOf, answeringRecord, type Probe, rotating, runKeys, type RunOptions, withProbe } from "./asking.js";
+import { answeringOf, answeringRecord, type Probe, probing, rotating, runKeys, type RunOptions } from "./asking.js";
 import {
   batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyRecord, limitKeys, movedKeys, type MovedOptions,
-  type Shape, type ShapeCarrier, shapeCarrierKeys, shapeFrom, staticKeys, type StaticOptions, withShape, zoneKeys,
+  type Shape, type ShapeCarrier, shapeCarrierKeys, shapeFrom, shapeRecord, staticKeys, type StaticOptions, zoneKeys,
   type ZoneOptions,
 } from "./body.js";
 import { BodyMap } from "./body_map.js";
 import { type Box, boxKeys, type Definition, definitionOf, definitionRecord, type WorldDefinition } from "./definition.js";
 import { type Event, eventFrom, Events } from "./event.js";
 import { type Filter, filterArguments, filterFrom, keptFilter, maskNumber, type PairFilter, putFilter } from "./filter.js";
-import { type Kept, type Module, Owned, theModule, type Value } from "./module.js";
+import { type Argument, Id, Ids, type Kept, Owned, theModule, type Value } from "./module.js";
 import { Place } from "./memory.js";
 import { Motion } from "./motion.js";
 import { checkKeys, numberOf, refusePromise, requireBytes, requireNumbers, whole } from "./options.js";
 import {
   bodyAt, bodyViewAt, busyBodyAt, eventAt, type EventKind, eventKinds, eventListAt, hitAt, type MotionLimits,
   motionLimitsAt, predictionAt, type ProbeReason, probeReasons, putMotionLimits, rayAt, runAt, sensorOverlapAt, shapeAt,
-  sphereAt, staticAt, timingsAt, type Wall, wallOf,
+  sphereAt, staticAt, timingsAt, type Wall, wallOf, worldAt,
 } from "./records.js";
 import { eventRecord } from "./response.js";
 import {
@@ -140,23 +140,22 @@ export class WorldView extends Owned {
     super(address, free);
   }
   get time(): number {
-    return theModule().number("ks_world_time", this.address);
+    return this.number("ks_world_time");
   }
   /** Number of bodies. */
   get size(): number {
-    return theModule().word("ks_world_size", this.address);
+    return this.word("ks_world_size");
   }
   get definition(): Definition {
-    return definitionOf(theModule(), "world_definition", this.address);
+    return definitionOf(this.read(worldAt, "world_definition"));
   }
   /** True if this world issued the id and the body has not been removed. */
   contains(body: BodyId): boolean {
-    const module = theModule();
-    return module.with(() => module.word("ks_world_contains", this.address, module.id(body, "contains"))) !== 0;
+    return this.word("ks_world_contains", new Id(body)) !== 0;
   }
   /** Returns all present bodies, by index. */
   bodies(): Float64Array {
-    return this.filledIds("ks_world_bodies");
+    return this.idsBy("ks_world_bodies");
   }
   /** What the world knows of a body now. */
   body(id: BodyId): BodyView {
@@ -164,14 +163,8 @@ export class WorldView extends Owned {
   }
   /** Without `ids`, for all bodies. */
   bodyViews(ids: ArrayLike<number> = this.bodies()): BodyView[] {
-    const call = "bodyViews";
-    requireNumbers(ids, "ids", call);
-    const module = theModule();
-    const all = module.with(() => {
-      const views = module.room(viewAt.size * ids.length);
-      module.check("world_views", this.address, ids.length, module.ids(ids, call), views);
-      return module.copy(views, viewAt.size * ids.length);
-    });
+    requireNumbers(ids, "ids", "bodyViews");
+    const all = this.read({ size: viewAt.size * ids.length }, "world_views", ids.length, new Ids(ids));
     return Array.from(ids, (id, k) => {
       const view = new Place(all.numbers, all.words, viewAt.size * k);
       return {
@@ -202,45 +195,31 @@ export class WorldView extends Owned {
    * the position of its last report.
    */
   shapeOf(body: BodyId): Shape {
-    return shapeFrom(Array.from(this.told("world_shape_of", body, "shapeOf")));
+    return shapeFrom(Array.from(this.told("world_shape_of", new Id(body))));
   }
   /** Returns the rotation of a rigid body at its last report. */
   rotation(body: BodyId): Rotation {
-    const module = theModule();
-    return module.with(() => {
-      const at = module.room(8 * rotationNumbers);
-      module.check("ks_world_rotation", this.address, module.id(body, "rotation"), at);
-      return rotationFrom(module.numbersAt(at, rotationNumbers));
-    });
+    return rotationFrom(this.read({ size: 8 * rotationNumbers }, "ks_world_rotation", new Id(body)).numbers);
   }
   /** Returns the parts of a rigid body, as it was added. */
   partsOf(body: BodyId): RigidPart[] {
-    return partsFrom(this.told("world_parts_of", body, "partsOf"));
+    return partsFrom(this.told("world_parts_of", new Id(body)));
   }
   /** Returns the bodies that the body touches, in order of their begins. */
   touching(body: BodyId): Float64Array {
-    return this.filledIds("ks_world_touching", body);
+    return this.idsBy("ks_world_touching", new Id(body));
   }
   /** Returns the sensor distances that the body is within, by partner, and for each from the largest to the smallest. */
   sensorOverlaps(body: BodyId): { body: BodyId; distance: number }[] {
-    const module = theModule();
-    return module.with(() => rows(
-      module, module.fill(sensorOverlapAt.size, "ks_world_sensor_overlaps", this.address, module.id(body, "sensorOverlaps")),
-      sensorOverlapAt.size, (row) => ({ body: row.id(sensorOverlapAt.body), distance: row.number(sensorOverlapAt.distance) })));
+    return this.rows(sensorOverlapAt.size, (row) => ({ body: row.id(sensorOverlapAt.body), distance: row.number(sensorOverlapAt.distance) }),
+                     "ks_world_sensor_overlaps", new Id(body));
   }
-  private told(name: string, body: BodyId, call: string): Float64Array {
+  private idsBy(name: string, ...values: Argument[]): Float64Array {
     const module = theModule();
-    return module.with(() => module.answer(name, this.address, module.id(body, call)));
-  }
-  private filledIds(name: string, body?: BodyId): Float64Array {
-    const module = theModule();
-    return module.with(() => {
-      const of = body === undefined ? [] : [module.id(body, "touching")];
-      return module.idsAt(...module.fill(12, name, this.address, ...of));
-    });
+    return module.fill(12, (address, count) => module.idsAt(address, count), name, this.address, ...values);
   }
   get counters(): Counters {
-    const numbers = theModule().answer("world_counters", this.address);
+    const numbers = this.told("world_counters");
     const after = eventKinds.length;
     return {
       events: Object.fromEntries(eventKinds.map((kind, k) => [kind, numbers[k]!])) as Record<EventKind, number>,
@@ -265,47 +244,40 @@ export class WorldView extends Owned {
    */
   busiest(count = 10): BusyBody[] {
     const module = theModule();
-    const most = whole(count, 2 ** 32 - 1, "count", "busiest");
-    return module.with(() => rows(
-      module, module.fill(busyBodyAt.size, "ks_world_busiest", this.address, most), busyBodyAt.size, (row) => {
-        const reason = row.word(busyBodyAt.reason);
-        return {
-          body: row.id(busyBodyAt.body),
-          reason: probeReasons[reason]!,
-          advice: module.text(module.call("ks_probe_reason_advice", reason)),
-          probes: row.whole(busyBodyAt.probes),
-          touching: row.whole(busyBodyAt.touching),
-          near: row.whole(busyBodyAt.nearOthers),
-          windows: row.whole(busyBodyAt.windows),
-          changes: row.whole(busyBodyAt.changes),
-          queries: row.whole(busyBodyAt.queries),
-          contacts: row.whole(busyBodyAt.contacts),
-          accelerationLimit: row.number(busyBodyAt.accelerationLimit),
-          largestAcceleration: row.number(busyBodyAt.largestAcceleration),
-        };
-      }));
+    return this.rows(busyBodyAt.size, (row) => {
+      const reason = row.word(busyBodyAt.reason);
+      return {
+        body: row.id(busyBodyAt.body),
+        reason: probeReasons[reason]!,
+        advice: module.text(module.call("ks_probe_reason_advice", reason)),
+        probes: row.whole(busyBodyAt.probes),
+        touching: row.whole(busyBodyAt.touching),
+        near: row.whole(busyBodyAt.nearOthers),
+        windows: row.whole(busyBodyAt.windows),
+        changes: row.whole(busyBodyAt.changes),
+        queries: row.whole(busyBodyAt.queries),
+        contacts: row.whole(busyBodyAt.contacts),
+        accelerationLimit: row.number(busyBodyAt.accelerationLimit),
+        largestAcceleration: row.number(busyBodyAt.largestAcceleration),
+      };
+    }, "ks_world_busiest", whole(count, 2 ** 32 - 1, "count", "busiest"));
   }
   /** Where the time went since profiling was switched on (World.setProfiling). */
   get timings(): Timings {
-    const module = theModule();
-    return module.with(() => {
-      const at = module.room(timingsAt.size);
-      module.check("ks_world_timings", this.address, at);
-      const from = module.at(at);
-      return {
-        advances: from.whole(timingsAt.advances),
-        advance: from.number(timingsAt.advance),
-        probes: from.number(timingsAt.probes),
-      };
-    });
+    const from = this.read(timingsAt, "ks_world_timings");
+    return {
+      advances: from.whole(timingsAt.advances),
+      advance: from.number(timingsAt.advance),
+      probes: from.number(timingsAt.probes),
+    };
   }
   /** Returns three numbers for each certificate: two ids, -1 for the walls, and its failure time. */
   certificates(): Float64Array {
-    return theModule().answer("world_certificates", this.address);
+    return this.told("world_certificates");
   }
   /** Returns seven numbers for each occupied cell: two corners, and the number of bodies. */
   cells(): Float64Array {
-    return theModule().answer("world_cells", this.address);
+    return this.told("world_cells");
   }
 
   // Predictions and queries. They answer from what the world knows; with a probe in the options, as well as fresh reports
@@ -344,13 +316,11 @@ export class WorldView extends Owned {
   /** Returns limits of the distance between the surfaces of two bodies now or at a later time; negative where they overlap. */
   distanceLimits(first: BodyId, second: BodyId, time = this.time, options: AnswerOptions = {}): Limits {
     checkKeys(options, answerKeys, "options", "distanceLimits");
-    const call = "distanceLimits";
     const module = theModule();
     return module.with(() => {
       const at = module.room(16);
-      const bodies = [module.id(first, call), module.id(second, call)];
-      this.asked(options.probe, call, (...probe) =>
-        module.check("ks_world_distance_limits", this.address, ...bodies, time, ...probe, at, at + 8));
+      this.check("ks_world_distance_limits", new Id(first), new Id(second), time,
+                 ...this.probing(options.probe, "distanceLimits"), at, at + 8);
       return { lower: module.f64[at >> 3]!, upper: module.f64[(at + 8) >> 3]! };
     });
   }
@@ -381,13 +351,9 @@ export class WorldView extends Owned {
     checkKeys(box, boxKeys, "box", call);
     checkKeys(options, queryKeys, "options", call);
     const corners = [...vector(box.lower, "box.lower", call), ...vector(box.upper, "box.upper", call)];
-    const module = theModule();
-    return module.with(() => {
-      const values = [module.numbers(corners), module.id(options.except ?? -1, call), filterRecord(module, options.filter, call)];
-      const found = this.asked(options.probe, call, (...probe) =>
-        module.answer("world_overlapping_box", this.address, ...values, ...probe));
-      return Array.from({ length: found.length / 2 }, (_, k) => ({ body: found[2 * k]!, certainly: found[2 * k + 1] === 1 }));
-    });
+    const found = this.told("world_overlapping_box", corners, new Id(options.except ?? -1), filtering(options.filter, call),
+                            ...this.probing(options.probe, call));
+    return Array.from({ length: found.length / 2 }, (_, k) => ({ body: found[2 * k]!, certainly: found[2 * k + 1] === 1 }));
   }
 
   // Many queries at once: with a probe, one call of it serves all that are open.
@@ -419,38 +385,32 @@ export class WorldView extends Owned {
   }
   /** Checks all invariants from scratch; returns the first defect, or null. For tests: it takes long. */
   audit(): string | null {
-    const module = theModule();
-    return module.text(module.word("world_audit", this.address)) || null;
+    return theModule().text(this.word("world_audit")) || null;
   }
   /** Returns the whole world, for World.restore() in any process, including native ones. */
   save(): Uint8Array {
-    return theModule().filledBytes("ks_world_save", this.address);
+    return this.filled("ks_world_save");
   }
   /** Returns a copy with an equal future. */
   clone(): World {
-    return World.at(theModule().handle("ks_world_clone", this.address));
+    return World.at(this.handle("ks_world_clone"));
   }
 
-  /** @internal Calls action(probe of C, its argument). */
-  protected asked<T>(probe: Probe | undefined, call: string, action: (probe: number, user: number) => T): T {
+  /** @internal Returns the arguments of C for a probe. */
+  protected probing(probe: Probe | undefined, call: string): Argument[] {
     if (probe !== undefined) throw new TypeError(`${call}: the world of a replay cannot ask a probe`);
-    return action(0, 0);
+    return [0, 0];
   }
   private earliest(name: string, call: string, { probe }: AnswerOptions, bodies: BodyId[], ...values: number[]): Earliest {
-    const module = theModule();
-    return module.with(() => {
-      const at = module.room(predictionAt.size);
-      const ids = bodies.map((body) => module.id(body, call));
-      this.asked(probe, call, (...asked) => module.check(name, this.address, ...ids, ...values, ...asked, at));
-      const from = module.at(at);
-      const partner = from.id(predictionAt.partner);
-      return {
-        time: from.number(predictionAt.time),
-        partner: partner < 0 ? null : partner,
-        wall: wallOf(from.word(predictionAt.wall)),
-        now: from.word(predictionAt.happens) !== 0,
-      };
-    });
+    const ids = bodies.map((body) => new Id(body));
+    const from = this.read(predictionAt, name, ...ids, ...values, ...this.probing(probe, call));
+    const partner = from.id(predictionAt.partner);
+    return {
+      time: from.number(predictionAt.time),
+      partner: partner < 0 ? null : partner,
+      wall: wallOf(from.word(predictionAt.wall)),
+      now: from.word(predictionAt.happens) !== 0,
+    };
   }
   private cast(
     origin: Vec3, direction: Vec3, length: number, radius: number, call: string, options: QueryOptions,
@@ -473,14 +433,8 @@ export class WorldView extends Owned {
       const queries = except === undefined ? rest : { ...rest, except: [except] };
       return this.queries(all, call, Float64Array.from(numbers), numbers.length, queries, hit, ...before)[0]!;
     }
-    const module = theModule();
-    return module.with(() => {
-      const at = module.numbers(numbers);
-      const vectors = Math.floor(numbers.length / 3);
-      const values = [...Array.from({ length: vectors }, (_, k) => at + 24 * k), ...numbers.slice(3 * vectors), ...before];
-      return this.asked(probe, call, (...asked) =>
-        rows(module, module.fill(hitAt.size, one, this.address, ...values, ...asked), hitAt.size, hit));
-    });
+    const vectors = Array.from({ length: Math.floor(numbers.length / 3) }, (_, k) => numbers.slice(3 * k, 3 * k + 3));
+    return this.rows(hitAt.size, hit, one, ...vectors, ...numbers.slice(3 * vectors.length), ...before, ...this.probing(probe, call));
   }
   private queries<Hit>(
     name: string, call: string, numbers: Float64Array, width: number, options: QueriesOptions, hit: (row: Place) => Hit,
@@ -493,12 +447,8 @@ export class WorldView extends Owned {
     const module = theModule();
     return module.with(() => {
       const ends = module.room(4 * count);
-      const values = [
-        module.numbers(numbers), except === undefined ? 0 : module.ids(except, call), count, ...before,
-        filterRecord(module, filter, call),
-      ];
-      const hits = this.asked(probe, call, (...asked) =>
-        rows(module, module.fill(hitAt.size, name, this.address, ...values, ...asked, ends), hitAt.size, hit));
+      const hits = this.rows(hitAt.size, hit, name, numbers, except === undefined ? 0 : new Ids(except), count, ...before,
+                             filtering(filter, call), ...this.probing(probe, call), ends);
       const end = (k: number) => (k < 0 ? 0 : module.i32[(ends >> 2) + k]!);
       return Array.from({ length: count }, (_, k) => hits.slice(end(k - 1), end(k)));
     });
@@ -518,17 +468,14 @@ const certain = (row: Place): Certain => ({ body: row.id(hitAt.body), certainly:
 const located = (row: Place): Located =>
   ({ ...certain(row), lower: row.number(hitAt.lower), upper: row.number(hitAt.upper) });
 
-/** Returns what read() makes of each record. */
-function rows<Row>(module: Module, [address, count]: [number, number], size: number, read: (row: Place) => Row): Row[] {
-  return Array.from({ length: count }, (_, k) => read(module.at(address + size * k)));
-}
-
-/** Returns the address of a filter, which is 0 without one. */
-function filterRecord(module: Module, filter: Filter | undefined, call: string): number {
+/** Returns the argument of C for a filter, which is 0 without one. */
+function filtering(filter: Filter | undefined, call: string): Argument {
   if (filter === undefined) return 0;
-  const at = module.room(24);
-  putFilter(module, at, filter, call);
-  return at;
+  return (module) => {
+    const at = module.room(24);
+    putFilter(module, at, filter, call);
+    return at;
+  };
 }
 
 /** Joins columns to rows: of each its name, its values, and how many of them each row has. */
@@ -591,8 +538,7 @@ export class World extends WorldView {
     requireBytes(snapshot, "snapshot", call);
     const module = theModule();
     const kept = keptFilter(module, pairFilter, "pairFilter", call);
-    const world = World.at(module.with(() => module.handle(
-      "ks_world_restore", module.bytesOf(snapshot), snapshot.length, ...filterArguments(module, kept))));
+    const world = World.at(module.handle("ks_world_restore", snapshot, snapshot.length, ...filterArguments(module, kept)));
     world.#pairFilter = kept;
     return world;
   }
@@ -600,8 +546,7 @@ export class World extends WorldView {
   /** Adds a body at the current time. */
   add(body: BodyDefinition): BodyId {
     checkKeys(body, bodyKeys, "body", "add");
-    const module = theModule();
-    return this.idOf((id) => module.check("ks_world_add", this.address, bodyRecord(module, body, "add"), 1, id));
+    return this.added("ks_world_add", bodyRecord(body, "add"), 1);
   }
   /** Adds all bodies or, after an error, none. Returns their ids. */
   addAll(bodies: BodyBatch): Float64Array {
@@ -632,13 +577,13 @@ export class World extends WorldView {
     const module = theModule();
     return module.with(() => {
       const { size } = bodyAt;
-      const first = bodyRecord(module, like, call), all = module.room(size * count), ids = module.room(12 * count);
+      const first = bodyRecord(like, call)(module), all = module.room(size * count), ids = module.room(12 * count);
       for (let k = 0; k < count; ++k) {
         const at = all + size * k;
         module.bytes.copyWithin(at, first, first + size);
         change(at, k);
       }
-      module.check("ks_world_add", this.address, all, count, ids);
+      this.check("ks_world_add", all, count, ids);
       return module.idsAt(ids, count);
     });
   }
@@ -680,33 +625,28 @@ export class World extends WorldView {
   addMovingShape(shape: Shape, body: ShapeCarrier): BodyId {
     const call = "addMovingShape";
     checkKeys(body, shapeCarrierKeys, "body", call);
-    const module = theModule();
-    return this.idOf((id) => withShape(module, shape, call, (made) =>
-      module.check("ks_world_add_moving_shape", this.address, bodyRecord(module, body, call), made, id)));
+    return this.added("ks_world_add_moving_shape", bodyRecord(body, call), shapeRecord(shape, call));
   }
   /**
    * Adds a rigid body: parts that move and turn together, about its position. It is one body, with one state
    * in a probe; events name its parts. Its limits are those of the motion of its position.
    */
   addRigidBody(parts: readonly RigidPart[], body: RigidBodyDefinition): BodyId {
-    const module = theModule();
-    return this.idOf((id) =>
-      module.check("ks_world_add_rigid_body", this.address, ...rigidRecords(module, parts, body, "addRigidBody"), id));
+    return this.added("ks_world_add_rigid_body", ...rigidRecords(parts, body, "addRigidBody"));
   }
   /** Adds a static body. */
   addStatic(shape: Shape, options: StaticOptions = {}): BodyId {
     const call = "addStatic";
     checkKeys(options, staticKeys, "options", call);
-    const module = theModule();
-    return this.idOf((id) => withShape(module, shape, call, (made) => {
-      const at = module.record(staticAt);
+    return this.added("ks_world_add_static", (module) => {
+      const made = shapeRecord(shape, call)(module), at = module.record(staticAt);
       module.putWord(at + staticAt.solid, options.solid === false ? 0 : 1);
       module.putWord(at + staticAt.sensorClass, whole(options.sensorClass ?? 0, 255, "sensorClass", call));
       module.bytes.copyWithin(at + staticAt.shape, made, made + shapeAt.size);
       putFilter(module, at + staticAt.filter, options.filter ?? {}, call);
       module.putWhole(at + staticAt.userData, whole(options.userData ?? 0, 2 ** 53, "userData", call));
-      module.check("ks_world_add_static", this.address, at, 1, id);
-    }));
+      return at;
+    }, 1);
   }
   /** Adds a surface of triangles as one static body: addStatic({ mesh: { vertices, corners } }). */
   addMesh(vertices: ArrayLike<number>, corners: ArrayLike<number>, options: StaticOptions = {}): BodyId {
@@ -720,35 +660,28 @@ export class World extends WorldView {
     const call = "addZone";
     checkKeys(options, zoneKeys, "options", call);
     const data = BigInt(whole(options.userData ?? 0, 2 ** 53, "userData", call));
-    const module = theModule();
-    const zone = this.idOf((id) => withShape(module, shape, call, (made) =>
-      module.check("ks_world_add_zone", this.address, made, data, id)));
+    const zone = this.added("ks_world_add_zone", shapeRecord(shape, call), data);
     if (options.filter !== undefined) this.setFilter(zone, options.filter);
     return zone;
   }
-  /** Calls add(), which writes the id of a body, and returns the id. */
-  private idOf(add: (id: number) => void): BodyId {
-    const module = theModule();
-    return module.with(() => {
-      const at = module.room(16);
-      add(at);
-      return module.at(at).id(0);
-    });
+  /** Calls a function that writes the id of a body, and returns the id. */
+  private added(name: string, ...values: Argument[]): BodyId {
+    return this.read({ size: 16 }, name, ...values).id(0);
   }
   /** Reserves memory for this number of bodies in total. */
   reserve(bodies: number): void {
-    theModule().check("ks_world_reserve", this.address, whole(bodies, 2 ** 32 - 1, "bodies", "reserve"));
+    this.check("ks_world_reserve", whole(bodies, 2 ** 32 - 1, "bodies", "reserve"));
   }
   /** Removes a body. Its contacts end with events; its id is stale for ever. */
   remove(body: BodyId): void {
-    this.change("ks_world_remove", body, 1);
+    this.check("ks_world_remove", new Id(body), 1);
   }
   /**
    * Sets the velocity from now on; later probes must agree with it. So a Motion that moves the body has to be told, too:
    * BodyMap.setVelocity() does both.
    */
   setVelocity(body: BodyId, velocity: Vec3): void {
-    this.changeBy("ks_world_set_velocity", body, vector(velocity, "velocity", "setVelocity"));
+    this.check("ks_world_set_velocity", new Id(body), vector(velocity, "velocity", "setVelocity"));
   }
   /** Sets the velocities of all these bodies, three numbers for each, or on an error of none. */
   setVelocityAll(bodies: ArrayLike<BodyId>, velocities: ArrayLike<number>): void {
@@ -758,17 +691,15 @@ export class World extends WorldView {
     if (velocities.length !== 3 * bodies.length)
       throw new RangeError(`${call}: velocities must have three numbers for each of ${bodies.length} bodies, ` +
                            `but has ${velocities.length}`);
-    const module = theModule();
-    module.with(() => module.check("ks_world_set_velocities", this.address, module.ids(bodies, call),
-                                   module.numbers(velocities), bodies.length));
+    this.check("ks_world_set_velocities", new Ids(bodies), velocities, bodies.length);
   }
   /** Sets the angular velocity (radians / time) of a rigid body from now on; a rotation probe must agree with it. */
   setAngularVelocity(body: BodyId, angularVelocity: Vec3): void {
-    this.changeBy("ks_world_set_angular_velocity", body, vector(angularVelocity, "angularVelocity", "setAngularVelocity"));
+    this.check("ks_world_set_angular_velocity", new Id(body), vector(angularVelocity, "angularVelocity", "setAngularVelocity"));
   }
   /** Turns a rigid body at once, as teleport() moves it. */
   setRotation(body: BodyId, rotation: Rotation): void {
-    this.changeBy("ks_world_set_rotation", body, numbersOfRotation(rotation, "setRotation"));
+    this.check("ks_world_set_rotation", new Id(body), numbersOfRotation(rotation, "setRotation"));
   }
   /**
    * Sets the function that gives the rotations of rigid bodies, directly after the probe; null removes it. Without one,
@@ -780,7 +711,7 @@ export class World extends WorldView {
       throw new TypeError("setRotationProbe: probe must be a function or null");
     const module = theModule();
     const kept = probe === null ? null : module.keep(rotating(module, probe));
-    module.check("ks_world_set_rotation_probe", this.address, kept === null ? 0 : module.pointer("rotate"), kept?.number ?? 0);
+    this.check("ks_world_set_rotation_probe", kept === null ? 0 : module.pointer("rotate"), kept?.number ?? 0);
     this.#rotationProbe = kept;
   }
   override clone(): World {
@@ -791,58 +722,56 @@ export class World extends WorldView {
   }
   /** Puts a body elsewhere; later probes must agree with it. BodyMap.teleport() tells the motion, too. */
   teleport(body: BodyId, state: State): void {
-    this.changeBy("ks_world_teleport", body, sixOf(state, "teleport"));
+    this.check("ks_world_teleport", new Id(body), sixOf(state, "teleport"));
   }
   /** Gives a body another radius (length, >= 0) from now on. */
   setRadius(body: BodyId, radius: number): void {
-    this.change("ks_world_set_radius", body, radius);
+    this.check("ks_world_set_radius", new Id(body), radius);
   }
   /**
    * Lets the radius of a ball change at this rate (length / time) from now on; negative for one that shrinks, which
    * stays a point once it is one. Events have the speed at which the surfaces approach.
    */
   setRadiusRate(body: BodyId, rate: number): void {
-    this.change("ks_world_set_radius_rate", body, rate);
+    this.check("ks_world_set_radius_rate", new Id(body), rate);
   }
   /** Gives a static body or a zone another shape: those that stay in contact with it or inside it get no event. */
   setShape(body: BodyId, shape: Shape): void {
-    withShape(theModule(), shape, "setShape", (made) => this.change("ks_world_set_shape", body, made));
+    this.check("ks_world_set_shape", new Id(body), shapeRecord(shape, "setShape"));
   }
   /** Sets the mass (>= 0) that events have from now on. */
   setMass(body: BodyId, mass: number): void {
-    this.change("ks_world_set_mass", body, mass);
+    this.check("ks_world_set_mass", new Id(body), mass);
   }
   /** Gives a body other motion limits from now on. */
   setMotionLimits(body: BodyId, limits: MotionLimits): void {
     const call = "setMotionLimits";
     checkKeys(limits, limitKeys, "limits", call);
-    const module = theModule();
-    module.with(() => {
+    this.check("ks_world_set_motion_limits", new Id(body), (module) => {
       const at = module.room(motionLimitsAt.size);
       putMotionLimits(module, at, limits, call);
-      this.change("ks_world_set_motion_limits", body, at);
+      return at;
     });
   }
   /** Disables the body: it touches no other and is never probed. */
   disable(body: BodyId): void {
-    this.change("ks_world_disable", body);
+    this.check("ks_world_disable", new Id(body));
   }
   /** Brings a disabled body back, in this state. */
   enable(body: BodyId, state: State): void {
-    this.changeBy("ks_world_enable", body, sixOf(state, "enable"));
+    this.check("ks_world_enable", new Id(body), sixOf(state, "enable"));
   }
   /** Puts the body to sleep: it stays in place, and is not probed, until something wakes it. */
   sleep(body: BodyId): void {
-    this.change("ks_world_sleep", body);
+    this.check("ks_world_sleep", new Id(body));
   }
   /** Wakes a sleeping body. */
   wake(body: BodyId): void {
-    this.change("ks_world_wake", body);
+    this.check("ks_world_wake", new Id(body));
   }
   /** Sets which bodies it may touch. Contacts that the filter excludes end; overlaps that it newly admits begin at once. */
   setFilter(body: BodyId, filter: Filter): void {
-    const module = theModule();
-    module.with(() => this.change("ks_world_set_filter", body, filterRecord(module, filter, "setFilter")));
+    this.check("ks_world_set_filter", new Id(body), filtering(filter, "setFilter"));
   }
   /**
    * Sets a predicate of your own for pairs whose filters let them touch; null removes it. Clones have it, too, and
@@ -862,88 +791,81 @@ export class World extends WorldView {
   }
   /** Says that the results of the pair filter for this body have changed. */
   refreshFilter(body: BodyId): void {
-    this.change("ks_world_refresh_filter", body);
+    this.check("ks_world_refresh_filter", new Id(body));
   }
   /** Sets whether the body has contacts from now on. */
   setSolid(body: BodyId, solid: boolean): void {
-    this.change("ks_world_set_solid", body, solid ? 1 : 0);
+    this.check("ks_world_set_solid", new Id(body), solid ? 1 : 0);
   }
   /**
    * Sets the distances (length >= 0) at which all bodies of the class sense others with a category bit in the mask, by
    * default all.
    */
   setSensor(sensorClass: number, distances: ArrayLike<number>, mask = -1): void {
-    const module = theModule();
     const call = "setSensor";
     requireNumbers(distances, "distances", call);
     const number = whole(sensorClass, 255, "sensorClass", call);
     const sensed = BigInt(maskNumber(mask, "mask", call));
-    module.with(() => module.check("ks_world_set_sensor", this.address, number, module.numbers(distances), distances.length, sensed));
+    this.check("ks_world_set_sensor", number, distances, distances.length, sensed);
   }
   /** Gives a body the sensor of another class from now on. */
   setSensorClass(body: BodyId, sensorClass: number): void {
-    this.change("ks_world_set_sensor_class", body, whole(sensorClass, 255, "sensorClass", "setSensorClass"));
+    this.check("ks_world_set_sensor_class", new Id(body), whole(sensorClass, 255, "sensorClass", "setSensorClass"));
   }
   /**
    * Gives two bodies a state, a whole number of the caller's own that their events have, until it is set to 0 or one of
    * the two is removed.
    */
   setPairState(first: BodyId, second: BodyId, state: number): void {
-    const call = "setPairState";
-    const number = pairStateOf(state, "state", call);
-    const module = theModule();
-    module.with(() => this.change("ks_world_set_pair_state", first, module.id(second, call), number));
+    this.check("ks_world_set_pair_state", new Id(first), new Id(second), pairStateOf(state, "state", "setPairState"));
   }
   /** Returns the state of two bodies; 0 if it was never set. */
   pairState(first: BodyId, second: BodyId): number {
-    const module = theModule();
-    return module.with(() =>
-      module.word("ks_world_pair_state", this.address, module.id(first, "pairState"), module.id(second, "pairState")));
+    return this.word("ks_world_pair_state", new Id(first), new Id(second));
   }
   /**
    * To be called at a sensor_enter or sensor_leave: velocities of the caller have turned the two back there, so they have
    * not crossed the distance. The event comes again if they do.
    */
   turnBack(crossing: Event): void {
-    const module = theModule();
-    module.with(() => module.check("ks_world_turn_back", this.address, eventRecord(module, crossing)));
+    this.check("ks_world_turn_back", eventRecord(crossing));
   }
   /** Schedules an event "timer" at a time that has not passed, and, if the period is not 0, again after each period. */
   schedule(time: number, userData = 0, period = 0): void {
     const data = BigInt(whole(userData, 2 ** 53, "userData", "schedule"));
-    theModule().check("ks_world_schedule", this.address, time, data, period);
+    this.check("ks_world_schedule", time, data, period);
   }
   /** Removes all timers with these data. Returns how many there were. */
   unschedule(userData: number): number {
-    const data = BigInt(whole(userData, 2 ** 53, "userData", "unschedule"));
-    return theModule().word("ks_world_unschedule", this.address, data);
+    return this.word("ks_world_unschedule", BigInt(whole(userData, 2 ** 53, "userData", "unschedule")));
   }
   /** Stores a whole number for the caller: events have it. */
   setUserData(body: BodyId, userData: number): void {
-    this.change("ks_world_set_user_data", body, BigInt(whole(userData, 2 ** 53, "userData", "setUserData")));
+    this.check("ks_world_set_user_data", new Id(body), BigInt(whole(userData, 2 ** 53, "userData", "setUserData")));
   }
 
   /** @internal */
-  protected override asked<T>(probe: Probe | undefined, call: string, action: (probe: number, user: number) => T): T {
-    return probe === undefined ? action(0, 0) : withProbe(theModule(), probe, call, action);
+  protected override probing(probe: Probe | undefined, call: string): Argument[] {
+    return probe === undefined ? [0, 0] : probing(probe, call);
   }
   /** Refuses a motion whose bodies the caller forgot to add. */
   private requireMoved(motion: Probe): void {
     if (this.#isMoved || !(motion instanceof Motion)) return;
-    theModule().check("world_check_motion", this.address, motion.address);
+    this.check("world_check_motion", motion.address);
     this.#isMoved = true;
   }
-  /** @internal Calls ask(event), which returns a status and writes an event. Returns the event, if there is one. */
-  protected next(ask: (event: number) => number): Event | null {
+  /** @internal Advances to the next event with a probe of C. */
+  protected next(until: number, ...probe: Argument[]): Event | null {
     const module = theModule();
+    const name = "ks_world_advance";
     return module.with(() => {
       const at = module.room(eventAt.size);
       module.putWord(at, eventAt.size);
-      const status = ask(at);
+      const status = module.status(name, this.address, until, ...probe, at);
       const event = status === 0 && module.i32[(at + eventAt.kind) >> 2] !== 0 ? eventFrom(module, at) : null;
       if (module.hasThrown) this.#kept = event;
       module.rethrow();
-      if (status !== 0) throw module.error(status, "ks_world_advance");
+      if (status !== 0) throw module.error(status, name);
       return event;
     });
   }
@@ -956,9 +878,7 @@ export class World extends WorldView {
       return event;
     }
     this.requireMoved(probe);
-    const module = theModule();
-    return this.next((event) => withProbe(module, probe, "advance", (asked, user) =>
-      module.status("ks_world_advance", this.address, until, asked, user, event)));
+    return this.next(until, ...probing(probe, "advance"));
   }
   /**
    * Yields the events up to `until`, for a loop in which bodies may be changed. After an early exit the world stands at
@@ -983,19 +903,16 @@ export class World extends WorldView {
     if (atStop !== undefined && typeof atStop !== "function") throw new TypeError("run: atStop must be a function of an event");
     const answering = answeringOf(module, respond, call, atStop !== undefined);
     this.requireMoved(motion);
-    const { address } = motion;
-    const movers = motion instanceof Motion ? [address, 0] : [0, address];
+    const mover: Argument = (to) => to.use(motion.address);
     const atEvent = (event: number) => refusePromise(atStop!(eventFrom(module, event)), "atStop");
     return module.with(() => {
       const told = module.room(eventListAt.size);
       module.putWord(told + eventListAt.count, 0);
-      const status = module.asking(atEvent, [address], (stop) => module.asking(answering.callback, [], (user) => {
-        const definition = answeringRecord(module, runAt, answering, user);
-        module.putWord(definition + runAt.sink, module.pointer("sink"));
-        module.putWord(definition + runAt.sinkUser, stop);
-        return module.status("world_run", this.address, until, ...movers, definition, answering.scene,
-                             module.numbers(answering.masses), answering.masses.length, told);
-      }));
+      const definition = answeringRecord(module, runAt, answering, answering.callback === null ? 0 : module.hold(answering.callback));
+      module.putWord(definition + runAt.sink, module.pointer("sink"));
+      module.putWord(definition + runAt.sinkUser, module.hold(atEvent));
+      const status = module.status("world_run", this.address, until, ...(motion instanceof Motion ? [mover, 0] : [0, mover]), definition,
+                                   answering.scene, answering.masses, answering.masses.length, told);
       const failure = module.takeThrown() ?? (status === 0 ? null : { value: module.error(status, "world_run") });
       const count = module.i32[(told + eventListAt.count) >> 2]!;
       const events = new Events(module.copy(module.i32[(told + eventListAt.events) >> 2]!, count * eventAt.size));
@@ -1012,17 +929,16 @@ export class World extends WorldView {
    * which bodies have cost most probes since.
    */
   setProfiling(on: boolean): void {
-    theModule().check("ks_world_set_profiling", this.address, on ? 1 : 0);
+    this.check("ks_world_set_profiling", on ? 1 : 0);
   }
   /** Records all inputs and outputs of this world from now on. */
   startRecording(): void {
-    theModule().check("ks_world_start_recording", this.address);
+    this.check("ks_world_start_recording");
   }
   /** Returns the recording, for Replay here or in any other program. */
   stopRecording(): Uint8Array {
-    const module = theModule();
-    module.check("ks_world_stop_recording", this.address);
-    return module.filledBytes("ks_world_recording", this.address);
+    this.check("ks_world_stop_recording");
+    return this.filled("ks_world_recording");
   }
 
   /** Warns once of a world nearly all of whose contacts were repeated, of bodies that hop upon each other. */
@@ -1043,19 +959,8 @@ export class World extends WorldView {
     console.warn(`run: ${jammedContacts} contacts were jammed: their bodies had no room beyond the contactTolerance, and ` +
                  "parted without speed, whatever the restitution: a contactTolerance below the gaps keeps their energy");
   }
-  /** @internal Calls a function of C for one body. */
-  protected change(name: string, body: BodyId, ...values: Value[]): void {
-    const module = theModule();
-    module.with(() => module.check(name, this.address, module.id(body, name), ...values));
-  }
-  /** @internal Does the same with numbers by their address. */
-  protected changeBy(name: string, body: BodyId, numbers: number[]): void {
-    const module = theModule();
-    module.with(() => module.check(name, this.address, module.id(body, name), module.numbers(numbers)));
-  }
 }
 
 function create(definition: WorldDefinition): bigint {
-  const module = theModule();
-  return module.with(() => module.handle("ks_world_create", definitionRecord(module, definition)));
+  return theModule().handle("ks_world_create", definitionRecord(definition));
 }
