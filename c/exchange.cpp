@@ -13,8 +13,7 @@ void require_number(std::string_view call, std::string_view argument, std::int64
   if (least <= number && number <= most) return;
   const std::string expectation = "must be from " + std::to_string(least) + " to " + std::to_string(most);
   InputCheck(call)
-      .require(false, ErrorCode::out_of_range, {argument}, expectation,
-               std::to_string(number))
+      .require(false, ErrorCode::out_of_range, {argument}, expectation, std::to_string(number))
       .result()
       .value();
 }

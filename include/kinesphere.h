@@ -553,9 +553,9 @@ KS_API ks_status ks_world_probe_count(ks_world world, uint64_t* probes);
 
 /// Wall-clock time spent (seconds) since profiling was switched on.
 typedef struct ks_timings {
-  uint64_t advances;  ///< calls of ks_world_advance()
-  double advance;     ///< in ks_world_advance(), including probes
-  double probes;      ///< in the caller's probes
+  uint64_t advances;  ///< Calls that advance the world.
+  double advance;     ///< In these calls, including probes.
+  double probes;      ///< In the caller's probes.
 } ks_timings;
 
 /// Main reason for the probes of a body (kinesphere/inspection.hpp).
@@ -581,8 +581,8 @@ typedef struct ks_busy_body {
   uint64_t changes;             ///< after changes by the caller and violated bounds
   uint64_t queries;             ///< for queries and predictions with a probe
   uint64_t contacts;            ///< Its begins of contacts with bodies and walls.
-  double acceleration_limit;    ///< now (length / time^2)
-  double largest_acceleration;  ///< that reports prove (length / time^2)
+  double acceleration_limit;    ///< Its limit now (length / time^2).
+  double largest_acceleration;  ///< Largest deviation from the plan that reports prove (length / time^2).
 } ks_busy_body;
 
 /// Switches profiling on, from zero, or off.

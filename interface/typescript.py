@@ -26,6 +26,8 @@ got = {
     "ks_open_pair": "OpenPair",
     "ks_predicted_pair": "PredictedPair",
     "ks_report_request": "ReportRequest",
+    "ks_timings": "Timings",
+    "ks_busy_body": "BusyFields",
 }
 classes = {"ks_event", "ks_monitor_event"}
 # What callers give, with the names of their interfaces, and fields that have no default.
@@ -41,13 +43,14 @@ by_hand = {
     "ks_monitor_event": ("second", "verdict", "before"),
     "ks_track_report": ("state", "velocity_error"),
 }
+renamed = {"near_others": "near"}
 whole_numbers = {"sensor_class": "255", "user_data": "2 ** 53", "track_class": "2 ** 32 - 1"}
 # Records that are written and read by hand.
 placed = [
     "ks_shape", "ks_static_definition", "ks_body_view", "ks_rigid_definition", "ks_rigid_hull", "ks_sensor_overlap",
-    "ks_prediction", "ks_hit", "ks_sphere", "ks_ray", "ks_busy_body", "ks_response", "ks_roughness",
+    "ks_prediction", "ks_hit", "ks_sphere", "ks_ray", "ks_response", "ks_roughness",
     "ks_step_potential_definition", "ks_run_definition", "ks_game_definition", "ks_event_list", "ks_body_list",
-    "ks_track_class", "ks_separation", "ks_separation_rule", "ks_timings",
+    "ks_track_class", "ks_separation", "ks_separation_rule",
 ]  # fmt: skip
 tracks = {"ks_monitor_event", "ks_pair_answer", "ks_open_pair", "ks_predicted_pair", "ks_report_request"}
 
@@ -82,9 +85,13 @@ def fields_of(interface: Interface, record: Record) -> list[tuple[Field, int]]:
 
 def places(interface: Interface, record: Record) -> list[str]:
     name, offsets = stem(record), offsets_of(interface, record)
-    fields = ", ".join(f"{lower_camel(one)}: {at}" for one, at in offsets.items() if one not in ("struct_size", "reserved"))
+    fields = ", ".join(
+        f"{lower_camel(one)}: {at}" for one, at in offsets.items() if one not in ("struct_size", "reserved")
+    )
     size = layout(interface, record, pointer=4)[1]
-    lines = wrapped(f"export const {name}At = {{ size: {size}, {fields} }}\u00a0as\u00a0const;", 118, "", "  ")
+    lines = wrapped(
+        f"export const {name}At = {{ size: {size}, {fields} }}\u00a0as\u00a0const;", 118, "", "  "
+    )
     return [f"/** @internal Size of a {record.name}, and offsets of its fields, in bytes. */", *lines, ""]
 
 
@@ -150,7 +157,11 @@ def read_value(interface: Interface, record: Record, one: Field, at: int, source
     if name in simple:
         return simple[name]
     if name == "ks_body_id":
-        return ("BodyId | null", f"idOrNull({call('id')})") if meaning.may_be_nobody(one) else ("BodyId", call("id"))
+        return (
+            ("BodyId | null", f"idOrNull({call('id')})")
+            if meaning.may_be_nobody(one)
+            else ("BodyId", call("id"))
+        )
     if name in enumerations:
         return enumerations[name][0], named(interface, name, call("word"))
     if one.name == "dimensions":
@@ -161,7 +172,10 @@ def read_value(interface: Interface, record: Record, one: Field, at: int, source
 
 
 def class_of(interface: Interface, record: Record) -> list[str]:
-    lines = ["/** The fields of an event, read from memory that never changes. */", f"export class {got[record.name]} extends Place {{"]
+    lines = [
+        "/** The fields of an event, read from memory that never changes. */",
+        f"export class {got[record.name]} extends Place {{",
+    ]
     for one, at in fields_of(interface, record):
         if one.name not in by_hand.get(record.name, ()):
             type, value = read_value(interface, record, one, at, "this")
@@ -174,11 +188,17 @@ def interface_of(interface: Interface, record: Record) -> list[str]:
     """An interface that the library gives, and the function that reads it."""
     name, fields = got[record.name], fields_of(interface, record)
     values = [(one, *read_value(interface, record, one, at, "from")) for one, at in fields]
+    spelled = {one.name: renamed.get(one.name, lower_camel(one.name)) for one, _ in fields}
     lines = documented(record.comment, "") + [f"export interface {name} {{"]
     for one, type, _ in values:
-        lines += documented(one.comment, "  ", one.type.name) + [f"  {lower_camel(one.name)}: {type};"]
-    lines += ["}", "/** @internal */", f"export function {stem(record)}Of(from: Place): {name} {{", "  return {"]
-    lines += [f"    {lower_camel(one.name)}: {value}," for one, _, value in values]
+        lines += documented(one.comment, "  ", one.type.name) + [f"  {spelled[one.name]}: {type};"]
+    lines += [
+        "}",
+        "/** @internal */",
+        f"export function {stem(record)}Of(from: Place): {name} {{",
+        "  return {",
+    ]
+    lines += [f"    {spelled[one.name]}: {value}," for one, _, value in values]
     return [*lines, "  };", "}", ""]
 
 
@@ -252,7 +272,11 @@ def given_of(interface: Interface, record: Record) -> list[str]:
 def read_back(interface: Interface, record: Record) -> list[str]:
     """The function that reads a definition which the module tells."""
     name = given[record.name][0]
-    lines = ["/** @internal */", f"export function {stem(record)}FieldsOf(from: Place): Required<{name}> {{", "  return {"]
+    lines = [
+        "/** @internal */",
+        f"export function {stem(record)}FieldsOf(from: Place): Required<{name}> {{",
+        "  return {",
+    ]
     for one, at in fields_of(interface, record):
         lines += [f"    {lower_camel(one.name)}: {read_value(interface, record, one, at, 'from')[1]},"]
     return [*lines, "  };", "}", ""]

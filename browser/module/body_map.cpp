@@ -79,10 +79,9 @@ ks_status map_add_all(BodyMapHandle* handle, ks_world world, const MotionHandle*
     Motion& motion = *moving->motion;
     for (std::uint32_t number = 0; number < motion.size(); ++number)
       if (motion.contains(number)) require_known(motion, number, object.world().time());
-    const auto found = handle->map
-                           ->add_all(object.world(), motion, std::span(radii, count),
-                                     c::body_of("add_all", *like))
-                           .value();
+    const auto found =
+        handle->map->add_all(object.world(), motion, std::span(radii, count), c::body_of("add_all", *like))
+            .value();
     *added = found.size();
     std::copy_n(c::c_ids(found), found.size(), ids);
     keep(handle, moving->motion);
@@ -109,8 +108,7 @@ ks_status map_push(const BodyMapHandle* handle, ks_world world, const MotionHand
   return change_by(world, [&](World& of) {
     auto* const frames = dynamic_cast<FrameMotion*>(moving->motion.get());
     if (frames == nullptr) {
-      detail::bad_result(
-          {ErrorCode::unsupported, "frames", no_body, "push: frames must be a FrameMotion"});
+      detail::bad_result({ErrorCode::unsupported, "frames", no_body, "push: frames must be a FrameMotion"});
     }
     return handle->map->push(of, *frames, std::span(positions, count), std::span(rotations, rotation_count),
                              time != nullptr ? std::optional<double>(*time) : std::nullopt);
@@ -147,8 +145,8 @@ void map_states(const BodyMapHandle* handle, double time, std::size_t count, con
   for (std::size_t k = 0; k < count; ++k) {
     const auto found = handle->map->find(bodies[k]);
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    states[k] = found ? nearest_state(*found->motion, found->number, time)
-                      : State{{nan, nan, nan}, {nan, nan, nan}};
+    states[k] =
+        found ? nearest_state(*found->motion, found->number, time) : State{{nan, nan, nan}, {nan, nan, nan}};
   }
 }
 /// Makes a map of the same bodies, in which the motion to[k] stands for from[k].

@@ -14,7 +14,7 @@
 #include "kinesphere/kinesphere.hpp"
 
 /// Exports a function to JavaScript under this name. In the small module a list says which are exported
-/// (small_exports.txt), and what the others need is left out.
+/// (browser/CMakeLists.txt), and what the others need is left out.
 #ifdef KINESPHERE_EXPORTS_BY_LIST
 #define KINESPHERE_EXPORT(name) extern "C"
 #else

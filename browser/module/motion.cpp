@@ -17,8 +17,7 @@ namespace {
 
 template <class Created>
 ks_status make(MotionHandle** made, Result<Created> created) {
-  return c::guarded(
-      [&] { *made = new MotionHandle{std::make_shared<Created>(std::move(created).value())}; });
+  return c::guarded([&] { *made = new MotionHandle{std::make_shared<Created>(std::move(created).value())}; });
 }
 
 /// Returns the motion if it is of that kind; else throws an error that names the missing ability.
@@ -126,8 +125,8 @@ MovedBody MovedBodies::find(BodyId body) const {
 KINESPHERE_EXPORT(motion_ballistic)
 ks_status motion_ballistic(std::size_t count, const State* states, const Vec3* gravity, double start,
                            MotionHandle** made) {
-  return make(made, Ballistic::create(
-                        {.start = {states, states + count}, .gravity = *gravity, .start_time = start}));
+  return make(
+      made, Ballistic::create({.start = {states, states + count}, .gravity = *gravity, .start_time = start}));
 }
 KINESPHERE_EXPORT(motion_random_forces)
 ks_status motion_random_forces(std::size_t count, const State* states, const double* limits, double interval,
@@ -191,8 +190,8 @@ KINESPHERE_EXPORT(motion_states)
 void motion_states(const MotionHandle* handle, double time, std::size_t count, const std::uint32_t* bodies,
                    State* states) {
   for (std::size_t k = 0; k < count; ++k)
-    states[k] = nearest_state(*handle->motion,
-                              bodies != nullptr ? bodies[k] : static_cast<std::uint32_t>(k), time);
+    states[k] =
+        nearest_state(*handle->motion, bodies != nullptr ? bodies[k] : static_cast<std::uint32_t>(k), time);
 }
 /// State and limits of a body at a time or, without a state then, at the nearest one.
 KINESPHERE_EXPORT(motion_definition)
@@ -276,8 +275,8 @@ KINESPHERE_EXPORT(frames_violations) ks_status frames_violations(const MotionHan
     const auto& frames = as<const FrameMotion>(handle, "violations: this motion has no frames");
     answer().clear();
     for (const auto& [body, excess, acceleration, velocity] : frames.violations())
-      answer().insert(answer().end(), {static_cast<double>(body), excess, acceleration, velocity.x,
-                                       velocity.y, velocity.z});
+      answer().insert(answer().end(),
+                      {static_cast<double>(body), excess, acceleration, velocity.x, velocity.y, velocity.z});
   });
 }
 /// Answers the times of the first and the last sample.

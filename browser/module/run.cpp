@@ -81,7 +81,8 @@ ks_status world_run(ks_world world, double until, const MotionHandle* motion, co
 
 /// Fails for a motion with bodies in a world that never moved any and has none but static ones: the caller
 /// forgot to add them.
-KINESPHERE_EXPORT(world_check_motion) ks_status world_check_motion(ks_world world, const MotionHandle* handle) {
+KINESPHERE_EXPORT(world_check_motion)
+ks_status world_check_motion(ks_world world, const MotionHandle* handle) {
   return c::reading("run", world, [&](const c::WorldObject& object) {
     const Counters& counters = object.world().counters();
     if (counters.starts > 0 || counters.restarts > 0) return;

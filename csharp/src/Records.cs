@@ -375,7 +375,9 @@ namespace Kinesphere
     [StructLayout(LayoutKind.Sequential)]
     public partial struct Timings
     {
+        /// <summary>Calls that advance the world.</summary>
         public ulong Advances;
+        /// <summary>In these calls, including probes.</summary>
         public double Advance;
         /// <summary>In the caller's probes.</summary>
         public double Probes;
@@ -401,9 +403,9 @@ namespace Kinesphere
         public ulong Queries;
         /// <summary>Its begins of contacts with bodies and walls.</summary>
         public ulong Contacts;
-        /// <summary>Now (length / time^2).</summary>
+        /// <summary>Its limit now (length / time^2).</summary>
         public double AccelerationLimit;
-        /// <summary>That reports prove (length / time^2).</summary>
+        /// <summary>Largest deviation from the plan that reports prove (length / time^2).</summary>
         public double LargestAcceleration;
     }
 

@@ -493,7 +493,9 @@ impl BodyView {
 /// Wall-clock time spent (seconds) since profiling was switched on.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Timings {
+    /// Calls that advance the world.
     pub advances: u64,
+    /// In these calls, including probes.
     pub advance: f64,
     /// In the caller's probes.
     pub probes: f64,
@@ -528,9 +530,9 @@ pub struct BusyBody {
     pub queries: u64,
     /// Its begins of contacts with bodies and walls.
     pub contacts: u64,
-    /// Now (length / time^2).
+    /// Its limit now (length / time^2).
     pub acceleration_limit: f64,
-    /// That reports prove (length / time^2).
+    /// Largest deviation from the plan that reports prove (length / time^2).
     pub largest_acceleration: f64,
 }
 

@@ -59,7 +59,8 @@ export class EventHash {
     const [first, count] = events instanceof Event ? [from >> 3, 1] : [0, events.length];
     module.with(() => {
       const parts = module.numbers(this.parts), at = module.numbers(numbers.subarray(first, first + count * (eventAt.size / 8)));
-      for (let k = 0; k < count; ++k) module.check("ks_event_hash_add", parts, at + k * eventAt.size);
+      const add = module.exports["ks_event_hash_add"]!;
+      for (let k = 0; k < count; ++k) add(parts, at + k * eventAt.size);
       this.parts = module.numbersAt(parts, 2);
     });
     return this;

@@ -20,7 +20,7 @@ export type {
 } from "./rigid_body.js";
 export { BodyMap } from "./body_map.js";
 export {
-  type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, type Timings, World, WorldView,
+  type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, World, WorldView,
 } from "./world.js";
 export { type GameOptions, GameWorld } from "./game_world.js";
 export type { Box, Definition, WorldDefinition } from "./definition.js";
@@ -40,5 +40,5 @@ export type { Plan, PlanBatch, ReportBatch, TrackReport } from "./report.js";
 export {
   type BodyAction, type BodyTraits, type ContactEvents, type ErrorCode, type EventKind, eventKinds, type MonitorEventKind,
   monitorEventKinds, type MotionLimits, type OpenPair, type PairAnswer, type PredictedPair, type ProbeReason, type ReportRequest,
-  type TrackId, type Verdict, type Wall,
+  type Timings, type TrackId, type Verdict, type Wall,
 } from "./records.js";

@@ -42,7 +42,8 @@ export interface Kept { readonly number: number }
 const inUse = 3, bufferTooSmall = 6;
 
 export class Module extends Memory {
-  private readonly exports: Exports;
+  /** The functions; call() and the like take care of arguments and errors. */
+  readonly exports: Exports;
   private readonly decoder = new TextDecoder();
   /** Callbacks by number, the argument `user` of C. */
   private readonly callbacks = new Map<number, Callback>();
@@ -102,8 +103,10 @@ export class Module extends Memory {
   status(name: string, ...values: Argument[]): number {
     const top = this.top, count = this.ends.length;
     try {
-      for (let k = 0; k < values.length; ++k)
-        if (typeof values[k] !== "number" && typeof values[k] !== "bigint") values[k] = this.argument(values[k], name);
+      for (let k = 0; k < values.length; ++k) {
+        const value = values[k];
+        if (typeof value !== "number" && typeof value !== "bigint") values[k] = this.argument(value, name);
+      }
       return this.exports[name]!(...(values as Value[]));
     } finally {
       this.leave(top, count);
@@ -117,17 +120,20 @@ export class Module extends Memory {
   }
   /** Calls a function that returns a status or nothing. Throws its error. */
   check(name: string, ...values: Argument[]): void {
-    const status = this.call(name, ...values);
+    this.settle(this.status(name, ...values), name);
+  }
+  private settle(status: number, name: string): void {
+    if (this.thrown !== null) this.rethrow();
     if (status) throw this.error(status, name);
   }
   /** Calls a function that writes one number to its last argument, and returns it. */
   number(name: string, ...values: Argument[]): number {
-    this.check(name, ...values, this.result);
+    this.settle(this.status(name, ...values, this.result), name);
     return this.f64[this.result >> 3]!;
   }
   /** Does the same for a number of 32 bits: a count, a flag, an address. */
   word(name: string, ...values: Argument[]): number {
-    this.check(name, ...values, this.result);
+    this.settle(this.status(name, ...values, this.result), name);
     return this.i32[this.result >> 2]!;
   }
   /** Does the same for one of 64 bits, such as a handle. */
@@ -294,8 +300,16 @@ export class Module extends Memory {
   private argument(value: Argument | null, name: string): Value {
     if (value === undefined) return NaN;
     if (typeof value === "function") return value(this);
-    if (value instanceof Id) return this.ids([value.body], name);
-    if (value instanceof Ids) return this.ids(value.bodies, name);
+    if (value instanceof Id) {
+      const address = this.room(12);
+      this.putId(address, value.body, name);
+      return address;
+    }
+    if (value instanceof Ids) {
+      const address = this.room(12 * value.bodies.length);
+      for (let k = 0; k < value.bodies.length; ++k) this.putId(address + 12 * k, value.bodies[k]!, name);
+      return address;
+    }
     if (value instanceof Uint8Array) {
       const address = this.room(value.length);
       this.bytes.set(value, address);
@@ -303,11 +317,6 @@ export class Module extends Memory {
     }
     if (Array.isArray(value) || ArrayBuffer.isView(value)) return this.numbers(value as ArrayLike<number>);
     throw new TypeError(`${callOf(name)}: arguments must be numbers, but one is ${shown(value)}`);
-  }
-  private ids(bodies: ArrayLike<number>, name: string): number {
-    const address = this.room(12 * bodies.length);
-    for (let k = 0; k < bodies.length; ++k) this.putId(address + 12 * k, bodies[k]!, name);
-    return address;
   }
 
   text(address: number): string {

@@ -12,17 +12,11 @@ import {
 } from "./records.js";
 import { batchRecords, putReport, type ReportBatch, trackId, type TrackReport } from "./report.js";
 
+const counterNames = [
+  "reports", "late", "repeated", "contradictions", "polls", "searches", "nearPairs", "rechecks",
+] as const;
 /** Counts of the work that a monitor has done since it was created. */
-export interface MonitorCounters {
-  reports: number;
-  late: number;
-  repeated: number;
-  contradictions: number;
-  polls: number;
-  searches: number;
-  nearPairs: number;
-  rechecks: number;
-}
+export interface MonitorCounters extends Record<(typeof counterNames)[number], number> {}
 
 /** The track certainly lies within `radius` of `centre`. */
 export interface TrackPlace {
@@ -125,16 +119,7 @@ export class Monitor extends Owned {
   }
   get counters(): MonitorCounters {
     const numbers = this.told("monitor_counters");
-    return {
-      reports: numbers[0]!,
-      late: numbers[1]!,
-      repeated: numbers[2]!,
-      contradictions: numbers[3]!,
-      polls: numbers[4]!,
-      searches: numbers[5]!,
-      nearPairs: numbers[6]!,
-      rechecks: numbers[7]!,
-    };
+    return Object.fromEntries(counterNames.map((name, k) => [name, numbers[k]!])) as Record<(typeof counterNames)[number], number>;
   }
   /** Returns the ids of all tracks, in ascending order. */
   tracks(): Float64Array {

@@ -307,6 +307,71 @@ export function reportRequestOf(from: Place): ReportRequest {
   };
 }
 
+/** @internal Size of a ks_timings, and offsets of its fields, in bytes. */
+export const timingsAt = { size: 24, advances: 0, advance: 8, probes: 16 } as const;
+
+/** Wall-clock time spent (seconds) since profiling was switched on. */
+export interface Timings {
+  /** Calls that advance the world. */
+  advances: number;
+  /** In these calls, including probes. */
+  advance: number;
+  /** In the caller's probes. */
+  probes: number;
+}
+/** @internal */
+export function timingsOf(from: Place): Timings {
+  return {
+    advances: from.whole(0),
+    advance: from.number(8),
+    probes: from.number(16),
+  };
+}
+
+/** @internal Size of a ks_busy_body, and offsets of its fields, in bytes. */
+export const busyBodyAt = { size: 88, body: 0, reason: 12, probes: 16, touching: 24, nearOthers: 32, windows: 40,
+  changes: 48, queries: 56, contacts: 64, accelerationLimit: 72, largestAcceleration: 80 } as const;
+
+/** A body that was probed while profiling was on; `probes` is the sum of the next five fields. */
+export interface BusyFields {
+  body: BodyId;
+  reason: ProbeReason;
+  /** Its probed states; the sum of the next five. */
+  probes: number;
+  /** For a body or wall that it touches. */
+  touching: number;
+  /** For a body, wall or sensor distance that it may reach or leave. */
+  near: number;
+  /** As it left its safe regions. */
+  windows: number;
+  /** After changes by the caller and violated bounds. */
+  changes: number;
+  /** For queries and predictions with a probe. */
+  queries: number;
+  /** Its begins of contacts with bodies and walls. */
+  contacts: number;
+  /** Its limit now (length / time^2). */
+  accelerationLimit: number;
+  /** Largest deviation from the plan that reports prove (length / time^2). */
+  largestAcceleration: number;
+}
+/** @internal */
+export function busyBodyOf(from: Place): BusyFields {
+  return {
+    body: from.id(0),
+    reason: probeReasons[from.word(12)]!,
+    probes: from.whole(16),
+    touching: from.whole(24),
+    near: from.whole(32),
+    windows: from.whole(40),
+    changes: from.whole(48),
+    queries: from.whole(56),
+    contacts: from.whole(64),
+    accelerationLimit: from.number(72),
+    largestAcceleration: from.number(80),
+  };
+}
+
 /** @internal Size of a ks_world_definition, and offsets of its fields, in bytes. */
 export const worldAt = { size: 144, dimensions: 4, hasBox: 8, periodic: 12, box: 16, contactTolerance: 64,
   separationDistance: 72, zenoInterval: 80, startTime: 88, contacts: 96, allowOverlap: 100, spreadWindowStarts: 104,
@@ -568,10 +633,6 @@ export const sphereAt = { size: 32, centre: 0, radius: 24 } as const;
 /** @internal Size of a ks_ray, and offsets of its fields, in bytes. */
 export const rayAt = { size: 64, origin: 0, direction: 24, length: 48, radius: 56 } as const;
 
-/** @internal Size of a ks_busy_body, and offsets of its fields, in bytes. */
-export const busyBodyAt = { size: 88, body: 0, reason: 12, probes: 16, touching: 24, nearOthers: 32, windows: 40,
-  changes: 48, queries: 56, contacts: 64, accelerationLimit: 72, largestAcceleration: 80 } as const;
-
 /** @internal Size of a ks_response, and offsets of its fields, in bytes. */
 export const responseAt = { size: 144, stop: 4, turnsFirst: 8, turnsSecond: 12, spinsFirst: 16, spinsSecond: 20,
   firstAction: 24, secondAction: 28, firstVelocity: 32, secondVelocity: 56, firstAngularVelocity: 80,
@@ -608,6 +669,3 @@ export const separationAt = { size: 40, shape: 0, horizontal: 8, vertical: 16, l
 
 /** @internal Size of a ks_separation_rule, and offsets of its fields, in bytes. */
 export const separationRuleAt = { size: 16, firstClass: 0, secondClass: 4, levels: 8, levelCount: 12 } as const;
-
-/** @internal Size of a ks_timings, and offsets of its fields, in bytes. */
-export const timingsAt = { size: 24, advances: 0, advance: 8, probes: 16 } as const;

@@ -18,9 +18,9 @@ import { Place } from "./memory.js";
 import { Motion } from "./motion.js";
 import { checkKeys, numberOf, refusePromise, requireBytes, requireNumbers, whole } from "./options.js";
 import {
-  bodyAt, bodyViewAt, busyBodyAt, eventAt, type EventKind, eventKinds, eventListAt, hitAt, type MotionLimits,
-  motionLimitsAt, predictionAt, type ProbeReason, probeReasons, putMotionLimits, rayAt, runAt, sensorOverlapAt, shapeAt,
-  sphereAt, staticAt, timingsAt, type Wall, wallOf, worldAt,
+  bodyAt, bodyViewAt, busyBodyAt, type BusyFields, busyBodyOf, eventAt, type EventKind, eventKinds, eventListAt, hitAt, type MotionLimits,
+  motionLimitsAt, predictionAt, putMotionLimits, rayAt, runAt, sensorOverlapAt, shapeAt,
+  sphereAt, staticAt, type Timings, timingsAt, timingsOf, type Wall, wallOf, worldAt,
 } from "./records.js";
 import { eventRecord } from "./response.js";
 import {
@@ -74,58 +74,20 @@ export interface Certain { body: BodyId; certainly: boolean }
 /** A body with limits of its distance. */
 export interface Located extends Certain { lower: number; upper: number }
 
+/** Counts of the work so far, in the order of the module; jammedContacts are those whose bodies a bounce parts without speed. */
+const counterNames = [
+  "probes", "windowEnds", "starts", "restarts", "pairChecks", "wallChecks", "searches", "candidates", "hotPairs",
+  "certificates", "zenoSteps", "repeatedContacts", "jammedContacts",
+] as const;
 /** Counts of the work so far. */
-export interface Counters {
+export interface Counters extends Record<(typeof counterNames)[number], number> {
   events: Record<EventKind, number>;
-  probes: number;
-  windowEnds: number;
-  starts: number;
-  restarts: number;
-  pairChecks: number;
-  wallChecks: number;
-  searches: number;
-  candidates: number;
-  hotPairs: number;
-  certificates: number;
-  zenoSteps: number;
-  repeatedContacts: number;
-  /** Contacts that are `jammed`: a bounce parts their bodies without speed, so energy is lost. */
-  jammedContacts: number;
 }
 
 /** A body that was probed while profiling was on, and why. */
-export interface BusyBody {
-  body: BodyId;
-  reason: ProbeReason;
+export interface BusyBody extends BusyFields {
   /** For a person: what the reason means, and what makes such a body cheaper. */
   advice: string;
-  /** Probed states of the body; the sum of the next five. */
-  probes: number;
-  /** For a body or wall that it touches. */
-  touching: number;
-  /** For a body, wall or sensor distance that it may reach or leave. */
-  near: number;
-  /** At ends of its windows of time. */
-  windows: number;
-  /** After changes and violated bounds. */
-  changes: number;
-  /** For queries and predictions with a probe. */
-  queries: number;
-  /** Events contact_begin and wall_begin of the body. */
-  contacts: number;
-  accelerationLimit: number;
-  /** Largest deviation from the planned acceleration that reported velocities prove. */
-  largestAcceleration: number;
-}
-
-/** Seconds that a world has taken. */
-export interface Timings {
-  /** Number of calls that advance it. */
-  advances: number;
-  /** In these calls, with those of probes. */
-  advance: number;
-  /** In probes. */
-  probes: number;
 }
 
 /** What world_views() in browser/module/looking.cpp writes: a ks_body_view, and five numbers. */
@@ -220,23 +182,9 @@ export class WorldView extends Owned {
   }
   get counters(): Counters {
     const numbers = this.told("world_counters");
-    const after = eventKinds.length;
-    return {
-      events: Object.fromEntries(eventKinds.map((kind, k) => [kind, numbers[k]!])) as Record<EventKind, number>,
-      probes: numbers[after]!,
-      windowEnds: numbers[after + 1]!,
-      starts: numbers[after + 2]!,
-      restarts: numbers[after + 3]!,
-      pairChecks: numbers[after + 4]!,
-      wallChecks: numbers[after + 5]!,
-      searches: numbers[after + 6]!,
-      candidates: numbers[after + 7]!,
-      hotPairs: numbers[after + 8]!,
-      certificates: numbers[after + 9]!,
-      zenoSteps: numbers[after + 10]!,
-      repeatedContacts: numbers[after + 11]!,
-      jammedContacts: numbers[after + 12]!,
-    };
+    const named = <Name extends string>(names: readonly Name[], from: number) =>
+      Object.fromEntries(names.map((name, k) => [name, numbers[from + k]!])) as Record<Name, number>;
+    return { ...named(counterNames, eventKinds.length), events: named(eventKinds, 0) };
   }
   /**
    * Returns the bodies that were probed most often while profiling was on (World.setProfiling), at most `count`, the most
@@ -244,32 +192,14 @@ export class WorldView extends Owned {
    */
   busiest(count = 10): BusyBody[] {
     const module = theModule();
-    return this.rows(busyBodyAt.size, (row) => {
-      const reason = row.word(busyBodyAt.reason);
-      return {
-        body: row.id(busyBodyAt.body),
-        reason: probeReasons[reason]!,
-        advice: module.text(module.call("ks_probe_reason_advice", reason)),
-        probes: row.whole(busyBodyAt.probes),
-        touching: row.whole(busyBodyAt.touching),
-        near: row.whole(busyBodyAt.nearOthers),
-        windows: row.whole(busyBodyAt.windows),
-        changes: row.whole(busyBodyAt.changes),
-        queries: row.whole(busyBodyAt.queries),
-        contacts: row.whole(busyBodyAt.contacts),
-        accelerationLimit: row.number(busyBodyAt.accelerationLimit),
-        largestAcceleration: row.number(busyBodyAt.largestAcceleration),
-      };
-    }, "ks_world_busiest", whole(count, 2 ** 32 - 1, "count", "busiest"));
+    const most = whole(count, 2 ** 32 - 1, "count", "busiest");
+    return this.rows(busyBodyAt.size, (row) => ({
+      ...busyBodyOf(row), advice: module.text(module.call("ks_probe_reason_advice", row.word(busyBodyAt.reason))),
+    }), "ks_world_busiest", most);
   }
   /** Where the time went since profiling was switched on (World.setProfiling). */
   get timings(): Timings {
-    const from = this.read(timingsAt, "ks_world_timings");
-    return {
-      advances: from.whole(timingsAt.advances),
-      advance: from.number(timingsAt.advance),
-      probes: from.number(timingsAt.probes),
-    };
+    return timingsOf(this.read(timingsAt, "ks_world_timings"));
   }
   /** Returns three numbers for each certificate: two ids, -1 for the walls, and its failure time. */
   certificates(): Float64Array {
