@@ -42,14 +42,16 @@ export interface Kept { readonly number: number }
 const inUse = 3, bufferTooSmall = 6;
 
 export class Module extends Memory {
-  /** The functions; call() and the like take care of arguments and errors. */
+  /** @internal The functions; call() and the like take care of arguments and errors. */
   readonly exports: Exports;
   private readonly decoder = new TextDecoder();
   /** Callbacks by number, the argument `user` of C. */
   private readonly callbacks = new Map<number, Callback>();
   private readonly forgottenCallbacks = new FinalizationRegistry<number>((number) => this.callbacks.delete(number));
   private readonly pointers = new Map<string, number>();
-  private lastCallback = 0;
+  /** Numbers of callbacks: positive ones of those that are kept, negative ones of those that running calls hold. */
+  private lastKept = 0;
+  private firstHeld = 0;
   private thrown: { value: unknown } | null = null;
   /** Objects of running calls, which may not be freed. */
   private readonly used: Value[] = [];
@@ -88,7 +90,8 @@ export class Module extends Memory {
         fd_write: (_file: number, pieces: number, count: number, size: number) =>
           this.write(pieces, count, size),
         proc_exit: (): never => {
-          throw new Error(`kinesphere: the module stopped. ${this.written}`);
+          this.thrown = { value: new Error(`kinesphere: the module stopped. ${this.written}`) };
+          throw this.thrown.value;
         },
       },
     });
@@ -191,16 +194,16 @@ export class Module extends Memory {
   }
   /** Gives a callback a number until the returned object is forgotten. */
   keep(callback: Callback): Kept {
-    const kept = { number: ++this.lastCallback };
+    const kept = { number: ++this.lastKept };
     this.callbacks.set(kept.number, callback);
     this.forgottenCallbacks.register(kept, kept.number);
     return kept;
   }
   /** Gives a callback a number until the call returns. */
   hold(callback: Callback): number {
-    const number = ++this.lastCallback;
+    const number = --this.firstHeld;
     this.callbacks.set(number, callback);
-    this.ends.push(() => this.callbacks.delete(number));
+    this.ends.push(() => this.callbacks.delete(this.firstHeld++));
     return number;
   }
   /** Returns the address of an object, which may not be freed until the call returns. */
@@ -227,7 +230,11 @@ export class Module extends Memory {
 
   /** Returns the error of a failed call of this function. */
   error(status: number, name: string): Error {
-    if (status === inUse) return new Error("kinesphere: an object cannot be freed while it asks for states or answers");
+    if (status === inUse && /_(destroy|free)$/.test(name))
+      return new Error("kinesphere: an object cannot be freed while it asks for states or answers");
+    // Calls that only read ask nothing but pair filters.
+    if (status === inUse)
+      return new KinesphereError(`${callOf(name)}: a pair filter may not call it`, "filter_in_progress", "world", null);
     this.exports["ks_last_error_body"]!(this.result);
     const body = this.at(this.result).id(0);
     return new KinesphereError(
@@ -266,7 +273,7 @@ export class Module extends Memory {
 
   /** Returns the address of memory of any content. */
   room(size: number): number {
-    const at = this.top, end = at + ((size + 7) & ~7);
+    const at = this.top, end = at + Math.max((size + 7) & ~7, 8);
     if (end <= this.arena + arenaSize) {
       this.top = end;
       return at;
