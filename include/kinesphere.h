@@ -1398,7 +1398,7 @@ typedef struct ks_open_pair {
   double since;
 } ks_open_pair;
 
-/// A pair that is predicted to come within a separation; times and distance as in ks_monitor_event, from now.
+/// A pair that is predicted to come within a separation; times and distance as in its event, from now.
 typedef struct ks_predicted_pair {
   uint64_t first;
   uint64_t second;

@@ -740,7 +740,8 @@ namespace Kinesphere
         public double Since;
     }
 
-    /// <summary>As in C++.</summary>
+    /// <summary>A pair that is predicted to come within a separation; times and distance as in its event, from
+    /// now.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct PredictedPair
     {

@@ -1086,7 +1086,7 @@ impl OpenPair {
     }
 }
 
-/// As `PredictedPair` in C++.
+/// A pair that is predicted to come within a separation; times and distance as in its event, from now.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct PredictedPair {
     pub first: u64,

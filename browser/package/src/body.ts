@@ -3,7 +3,9 @@ import { type Box, boxKeys } from "./definition.js";
 import type { Filter } from "./filter.js";
 import type { Argument, Module } from "./module.js";
 import { checkKeys, type Keys, requireNumbers } from "./options.js";
-import { bodyAt, type BodyFields, bodyFieldKeys, type MotionLimits, motionLimitsFieldKeys, putBodyFields, shapeAt } from "./records.js";
+import {
+  bodyAt, type BodyFields, bodyFieldKeys, type MotionLimits, motionLimitsFieldKeys, putBodyFields, shapeAt,
+} from "./records.js";
 import { type PerBody, type States, type Vec3, vector } from "./state.js";
 
 /** The part of a definition that does not depend on the place. */
@@ -156,7 +158,8 @@ function meshOf(module: Module, mesh: MeshShape, call: string): bigint {
       throw new TypeError(`${call}: ${name} must have three numbers each, but there are ${mesh[name].length}`);
   }
   // No vertex has the largest number.
-  const corners = Array.from(mesh.corners, (corner) => (Number.isInteger(corner) && corner >= 0 && corner < 2 ** 32 ? corner : -1));
+  const corners = Array.from(mesh.corners, (corner) =>
+    (Number.isInteger(corner) && corner >= 0 && corner < 2 ** 32 ? corner : -1));
   return module.handle("ks_mesh_create", Float64Array.from(mesh.vertices), mesh.vertices.length / 3,
                        (to) => to.words(corners), corners.length / 3);
 }

@@ -1,7 +1,7 @@
 // Definitions of worlds.
 import { type Filter, filterFrom, putFilter } from "./filter.js";
-import type { Argument } from "./module.js";
 import type { Place } from "./memory.js";
+import type { Argument } from "./module.js";
 import { checkKeys, type Keys, shown } from "./options.js";
 import { putWorldFields, worldAt, worldFieldKeys, type WorldFields, worldFieldsOf } from "./records.js";
 import { type Vec3, vector } from "./state.js";
@@ -53,7 +53,8 @@ export function definitionRecord(definition: WorldDefinition): Argument {
 export function definitionOf(from: Place): Definition {
   return {
     ...worldFieldsOf(from),
-    ...(from.word(worldAt.hasBox) === 0 ? {} : { box: { lower: from.vector(worldAt.box), upper: from.vector(worldAt.box + 24) } }),
+    ...(from.word(worldAt.hasBox) === 0 ? {}
+        : { box: { lower: from.vector(worldAt.box), upper: from.vector(worldAt.box + 24) } }),
     ...(from.word(worldAt.hasWallFilter) === 0 ? {} : { wallFilter: filterFrom(from, worldAt.wallFilter) }),
   };
 }

@@ -1,6 +1,6 @@
 // Events of a world: contacts and the like, each at its exact time.
-import { type Module, theModule } from "./module.js";
 import type { Place } from "./memory.js";
+import { type Module, theModule } from "./module.js";
 import { shown } from "./options.js";
 import { eventAt, EventFields } from "./records.js";
 import type { BodyId } from "./state.js";
@@ -28,7 +28,11 @@ export function eventFrom(module: Module, address: number): Event {
 /** Many events, in order. */
 export class Events implements Iterable<Event> {
   /** @internal */
-  constructor(readonly records: Place) {}
+  readonly records: Place;
+  /** @internal */
+  constructor(records: Place) {
+    this.records = records;
+  }
   get length(): number { return 8 * this.records.numbers.length / eventAt.size; }
   /** Returns the event at a place, from 0, or undefined beyond the last. */
   at(place: number): Event | undefined {

@@ -47,7 +47,9 @@ export class GameWorld extends World {
   /** What answers events. */
   #answering: unknown;
 
-  constructor(definition: WorldDefinition = {}, options: GameOptions = {}, made: [handle: bigint, answering: unknown] | null = null) {
+  constructor(
+    definition: WorldDefinition = {}, options: GameOptions = {}, made: [handle: bigint, answering: unknown] | null = null,
+  ) {
     const call = "GameWorld";
     checkKeys(options, gameKeys, "options", call);
     if (made !== null) {

@@ -186,9 +186,7 @@ export class Module extends Memory {
 
   /** Returns the address of the function of this name in browser/module/callbacks.cpp. */
   pointer(name: string): number {
-    const known = this.pointers.get(name);
-    if (known !== undefined) return known;
-    const address = this.exports[`callback_${name}`]!();
+    const address = this.pointers.get(name) ?? this.exports[`callback_${name}`]!();
     this.pointers.set(name, address);
     return address;
   }
@@ -358,6 +356,11 @@ const simdProbe = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
 ]);
 
+/** The smallest module with an exception. */
+const exceptionProbe = new Uint8Array([
+  0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 8, 1, 6, 0, 6, 64, 25, 11, 11,
+]);
+
 /** How load() gets the WebAssembly module. */
 export interface LoadOptions {
   /** Whether to use the build with SIMD; by default if the engine supports it. */
@@ -392,6 +395,9 @@ async function compiled(source: BufferSource | WebAssembly.Module | URL | string
 export async function load(options: LoadOptions = {}): Promise<void> {
   checkKeys(options, loadKeys, "options", "load");
   if (loaded !== null) return;
+  if (!WebAssembly.validate(exceptionProbe))
+    throw new Error("kinesphere: this engine is too old: its WebAssembly has no exceptions, as Chrome 95, Firefox 100, Safari " +
+                    "15.2 and Node.js 17 have");
   const simd = options.simd ?? WebAssembly.validate(simdProbe);
   const own = simd
     ? new URL("./kinesphere-simd.wasm", import.meta.url)

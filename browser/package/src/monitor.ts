@@ -119,7 +119,7 @@ export class Monitor extends Owned {
   }
   get counters(): MonitorCounters {
     const numbers = this.told("monitor_counters");
-    return Object.fromEntries(counterNames.map((name, k) => [name, numbers[k]!])) as Record<(typeof counterNames)[number], number>;
+    return Object.fromEntries(counterNames.map((name, k) => [name, numbers[k]!])) as unknown as MonitorCounters;
   }
   /** Returns the ids of all tracks, in ascending order. */
   tracks(): Float64Array {

@@ -266,6 +266,7 @@ export function openPairOf(from: Place): OpenPair {
 export const predictedPairAt = { size: 56, first: 0, second: 8, level: 16, since: 24, likelyTime: 32, closestTime: 40,
   closestDistance: 48 } as const;
 
+/** A pair that is predicted to come within a separation; times and distance as in its event, from now. */
 export interface PredictedPair {
   first: TrackId;
   second: TrackId;

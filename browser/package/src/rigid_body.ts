@@ -131,7 +131,9 @@ export function partsFrom(numbers: Float64Array): RigidPart[] {
 }
 
 /** Returns a ks_body_definition and a ks_rigid_definition, whose parts are hulls, in their order, as arguments. */
-export function rigidRecords(parts: readonly RigidPart[], body: RigidBodyDefinition, call: string): [body: Argument, rigid: Argument] {
+export function rigidRecords(
+  parts: readonly RigidPart[], body: RigidBodyDefinition, call: string,
+): [body: Argument, rigid: Argument] {
   checkKeys(body, rigidBodyKeys, "body", call);
   if (!Array.isArray(parts)) throw new TypeError(`${call}: parts must be an array, but is ${shown(parts)}`);
   const {

@@ -13,14 +13,14 @@ import { BodyMap } from "./body_map.js";
 import { type Box, boxKeys, type Definition, definitionOf, definitionRecord, type WorldDefinition } from "./definition.js";
 import { type Event, eventFrom, Events } from "./event.js";
 import { type Filter, filterArguments, filterFrom, keptFilter, maskNumber, type PairFilter, putFilter } from "./filter.js";
-import { type Argument, Id, Ids, type Kept, Owned, theModule, type Value } from "./module.js";
 import { Place } from "./memory.js";
+import { type Argument, Id, Ids, type Kept, Owned, theModule, type Value } from "./module.js";
 import { Motion } from "./motion.js";
 import { checkKeys, numberOf, refusePromise, requireBytes, requireNumbers, whole } from "./options.js";
 import {
-  bodyAt, bodyViewAt, busyBodyAt, type BusyFields, busyBodyOf, eventAt, type EventKind, eventKinds, eventListAt, hitAt, type MotionLimits,
-  motionLimitsAt, predictionAt, putMotionLimits, rayAt, runAt, sensorOverlapAt, shapeAt,
-  sphereAt, staticAt, type Timings, timingsAt, timingsOf, type Wall, wallOf, worldAt,
+  bodyAt, bodyViewAt, busyBodyAt, busyBodyOf, type BusyFields, eventAt, type EventKind, eventKinds, eventListAt, hitAt,
+  type MotionLimits, motionLimitsAt, predictionAt, putMotionLimits, rayAt, runAt, sensorOverlapAt, shapeAt, sphereAt,
+  staticAt, type Timings, timingsAt, timingsOf, type Wall, wallOf, worldAt,
 } from "./records.js";
 import { eventRecord } from "./response.js";
 import {
@@ -91,7 +91,9 @@ export interface BusyBody extends BusyFields {
 }
 
 /** What world_views() in browser/module/looking.cpp writes: a ks_body_view, and five numbers. */
-const viewAt = { size: bodyViewAt.size + 40, centre: bodyViewAt.size, boundRadius: bodyViewAt.size + 24, isRigid: bodyViewAt.size + 32 };
+const viewAt = {
+  size: bodyViewAt.size + 40, centre: bodyViewAt.size, boundRadius: bodyViewAt.size + 24, isRigid: bodyViewAt.size + 32,
+};
 /** The definition in a ks_body_view. */
 const definitionAt = (field: keyof typeof bodyAt) => bodyViewAt.definition + bodyAt[field];
 
@@ -144,7 +146,8 @@ export class WorldView extends Owned {
         accelerationLimit: view.number(definitionAt("accelerationLimit")),
         sensorClass: view.word(definitionAt("sensorClass")),
         userData: view.whole(definitionAt("userData")),
-        image: Float64Array.of(view.signed(bodyViewAt.image), view.signed(bodyViewAt.image + 8), view.signed(bodyViewAt.image + 16)),
+        image: Float64Array.of(
+          view.signed(bodyViewAt.image), view.signed(bodyViewAt.image + 8), view.signed(bodyViewAt.image + 16)),
         solid: view.word(definitionAt("solid")) !== 0,
         mass: view.number(definitionAt("mass")),
         filter: filterFrom(view, definitionAt("filter")),
@@ -173,8 +176,8 @@ export class WorldView extends Owned {
   }
   /** Returns the sensor distances that the body is within, by partner, and for each from the largest to the smallest. */
   sensorOverlaps(body: BodyId): { body: BodyId; distance: number }[] {
-    return this.rows(sensorOverlapAt.size, (row) => ({ body: row.id(sensorOverlapAt.body), distance: row.number(sensorOverlapAt.distance) }),
-                     "ks_world_sensor_overlaps", new Id(body));
+    const { size, body: at, distance } = sensorOverlapAt;
+    return this.rows(size, (row) => ({ body: row.id(at), distance: row.number(distance) }), "ks_world_sensor_overlaps", new Id(body));
   }
   private idsBy(name: string, ...values: Argument[]): Float64Array {
     const module = theModule();
@@ -304,7 +307,8 @@ export class WorldView extends Owned {
     radii: PerBody = 0,
   ): Located[][] {
     const call = "rayCastAll";
-    const rays = columns(call, ["origins", origins, 3], ["directions", directions, 3], ["lengths", lengths, 1], ["radii", radii, 1]);
+    const rays = columns(
+      call, ["origins", origins, 3], ["directions", directions, 3], ["lengths", lengths, 1], ["radii", radii, 1]);
     return this.queries("ks_world_cast_all", call, rays, rayAt.size / 8, options, located);
   }
   /** Returns for each sphere, three numbers in `centres` and a radius, what overlapping() does. */
@@ -364,7 +368,8 @@ export class WorldView extends Owned {
       return this.queries(all, call, Float64Array.from(numbers), numbers.length, queries, hit, ...before)[0]!;
     }
     const vectors = Array.from({ length: Math.floor(numbers.length / 3) }, (_, k) => numbers.slice(3 * k, 3 * k + 3));
-    return this.rows(hitAt.size, hit, one, ...vectors, ...numbers.slice(3 * vectors.length), ...before, ...this.probing(probe, call));
+    return this.rows(
+      hitAt.size, hit, one, ...vectors, ...numbers.slice(3 * vectors.length), ...before, ...this.probing(probe, call));
   }
   private queries<Hit>(
     name: string, call: string, numbers: Float64Array, width: number, options: QueriesOptions, hit: (row: Place) => Hit,
@@ -838,11 +843,13 @@ export class World extends WorldView {
     return module.with(() => {
       const told = module.room(eventListAt.size);
       module.putWord(told + eventListAt.count, 0);
-      const definition = answeringRecord(module, runAt, answering, answering.callback === null ? 0 : module.hold(answering.callback));
+      const user = answering.callback === null ? 0 : module.hold(answering.callback);
+      const definition = answeringRecord(module, runAt, answering, user);
       module.putWord(definition + runAt.sink, module.pointer("sink"));
       module.putWord(definition + runAt.sinkUser, module.hold(atEvent));
-      const status = module.status("world_run", this.address, until, ...(motion instanceof Motion ? [mover, 0] : [0, mover]), definition,
-                                   answering.scene, answering.masses, answering.masses.length, told);
+      const movers = motion instanceof Motion ? [mover, 0] : [0, mover];
+      const status = module.status("world_run", this.address, until, ...movers, definition, answering.scene,
+                                   answering.masses, answering.masses.length, told);
       const failure = module.takeThrown() ?? (status === 0 ? null : { value: module.error(status, "world_run") });
       const count = module.i32[(told + eventListAt.count) >> 2]!;
       const events = new Events(module.copy(module.i32[(told + eventListAt.events) >> 2]!, count * eventAt.size));
