@@ -7,8 +7,6 @@ from header import Interface, Record
 
 # Records whose fields have the same names in C++.
 walked = [
-    "event",
-    "filter",
     "body_definition",
     "motion_limits",
     "world_definition",

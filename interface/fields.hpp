@@ -7,49 +7,6 @@
 namespace kinesphere::fields {
 
 template <class Visit, class... Records>
-constexpr void each_event_field(Visit&& visit, Records&... records) {
-  visit("kind", records.kind...);
-  visit("time", records.time...);
-  visit("first", records.first...);
-  visit("second", records.second...);
-  visit("wall", records.wall...);
-  visit("repeated", records.repeated...);
-  visit("jammed", records.jammed...);
-  visit("already_touching", records.already_touching...);
-  visit("senses", records.senses...);
-  visit("first_traits", records.first_traits...);
-  visit("second_traits", records.second_traits...);
-  visit("pair_state", records.pair_state...);
-  visit("first_state", records.first_state...);
-  visit("second_state", records.second_state...);
-  visit("point", records.point...);
-  visit("normal", records.normal...);
-  visit("gap", records.gap...);
-  visit("approach_speed", records.approach_speed...);
-  visit("position_excess", records.position_excess...);
-  visit("velocity_excess", records.velocity_excess...);
-  visit("distance", records.distance...);
-  visit("first_user_data", records.first_user_data...);
-  visit("second_user_data", records.second_user_data...);
-  visit("first_mass", records.first_mass...);
-  visit("second_mass", records.second_mass...);
-  visit("first_part", records.first_part...);
-  visit("second_part", records.second_part...);
-  visit("first_angular_velocity", records.first_angular_velocity...);
-  visit("second_angular_velocity", records.second_angular_velocity...);
-  visit("first_spin_gain", records.first_spin_gain...);
-  visit("second_spin_gain", records.second_spin_gain...);
-  visit("acceleration_limit", records.acceleration_limit...);
-}
-
-template <class Visit, class... Records>
-constexpr void each_filter_field(Visit&& visit, Records&... records) {
-  visit("category", records.category...);
-  visit("mask", records.mask...);
-  visit("group", records.group...);
-}
-
-template <class Visit, class... Records>
 constexpr void each_body_definition_field(Visit&& visit, Records&... records) {
   visit("solid", records.solid...);
   visit("contacts", records.contacts...);
