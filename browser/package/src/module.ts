@@ -104,6 +104,9 @@ export class Module extends Memory {
 
   /** Calls a function and returns its result. The caller throws what a callback threw (rethrow). */
   status(name: string, ...values: Argument[]): number {
+    return this.invoke(name, values);
+  }
+  private invoke(name: string, values: Argument[]): number {
     const top = this.top, count = this.ends.length;
     try {
       for (let k = 0; k < values.length; ++k) {
@@ -123,25 +126,29 @@ export class Module extends Memory {
   }
   /** Calls a function that returns a status or nothing. Throws its error. */
   check(name: string, ...values: Argument[]): void {
-    this.settle(this.status(name, ...values), name);
+    this.settle(name, values);
   }
-  private settle(status: number, name: string): void {
+  private settle(name: string, values: Argument[]): void {
+    const status = this.invoke(name, values);
     if (this.thrown !== null) this.rethrow();
     if (status) throw this.error(status, name);
   }
   /** Calls a function that writes one number to its last argument, and returns it. */
   number(name: string, ...values: Argument[]): number {
-    this.settle(this.status(name, ...values, this.result), name);
+    values.push(this.result);
+    this.settle(name, values);
     return this.f64[this.result >> 3]!;
   }
   /** Does the same for a number of 32 bits: a count, a flag, an address. */
   word(name: string, ...values: Argument[]): number {
-    this.settle(this.status(name, ...values, this.result), name);
+    values.push(this.result);
+    this.settle(name, values);
     return this.i32[this.result >> 2]!;
   }
   /** Does the same for one of 64 bits, such as a handle. */
   handle(name: string, ...values: Argument[]): bigint {
-    this.check(name, ...values, this.result);
+    values.push(this.result);
+    this.settle(name, values);
     return this.u64[this.result >> 3]!;
   }
   /** Calls a function that writes a record to its last argument, and returns a copy. */
