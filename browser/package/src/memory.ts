@@ -21,7 +21,10 @@ export function callOf(name: string): string {
 /** A record to be read: in the memory of the module, until that is called again, or in a copy. */
 export class Place {
   /** @internal Both are of one buffer, in which the record begins at `from`. */
-  constructor(readonly numbers: Float64Array, readonly words: Int32Array, readonly from = 0) {}
+  constructor(
+    /** @internal */ readonly numbers: Float64Array, /** @internal */ readonly words: Int32Array,
+    /** @internal */ readonly from = 0,
+  ) {}
 
   /** @internal */
   number(at: number): number { return this.numbers[(this.from + at) >> 3]!; }
