@@ -4,8 +4,8 @@ import { type Event, eventFrom } from "./event.js";
 import { type Argument, type Callback, type Module, theModule, type Value } from "./module.js";
 import { Motion } from "./motion.js";
 import { checkKeys, type Keys, refusePromise, requireNumbers, shown } from "./options.js";
-import { type BodyAction, bodyActions, type gameAt, responseAt, type runAt } from "./records.js";
-import { bounced, type Bounces, checkBounce, roughBlock, StepPotential } from "./response.js";
+import { type BodyAction, bodyActions, type gameAt, responseAt, roughnessAt, type runAt } from "./records.js";
+import { bounced, type Bounces, checkBounce, putRoughness, StepPotential } from "./response.js";
 import { rotationNumbers, type RotationProbeFunction } from "./rigid_body.js";
 import { Scene } from "./scene.js";
 import { pairStateOf, type Vec3, vector } from "./state.js";
@@ -152,7 +152,10 @@ export interface Answering {
   kept: unknown;
 }
 
-export function answeringOf(module: Module, respond: RunOptions["respond"], call: string, mayStop: boolean): Answering {
+/** `room` gives memory for as long as the answers need it. */
+export function answeringOf(
+  module: Module, respond: RunOptions["respond"], call: string, mayStop: boolean, room: (size: number) => number,
+): Answering {
   const none: Answering =
     { restitution: NaN, restingSpeed: 0, masses: [], scene: 0, pointer: 0, user: 0, callback: null, kept: respond };
   if (respond === undefined) return none;
@@ -168,8 +171,9 @@ export function answeringOf(module: Module, respond: RunOptions["respond"], call
   if (roughness === undefined) return { ...none, restitution, restingSpeed, masses };
   if (respond.masses !== undefined || respond.restingSpeed)
     throw new TypeError(`${call}: respond: roughness stands in place of masses and a resting speed`);
-  const block = roughBlock(module, restitution, roughness, call);
-  return { ...none, pointer: module.pointer("rough"), user: block.address, kept: block };
+  const user = room(roughnessAt.size);
+  putRoughness(module, user, restitution, roughness, call);
+  return { ...none, pointer: module.pointer("rough"), user };
 }
 
 /** @internal Returns the address of a ks_run_definition or a ks_game_definition; `user` is the number of a callback. */

@@ -4,7 +4,7 @@ import { definitionRecord, type WorldDefinition } from "./definition.js";
 import { type Event, Events } from "./event.js";
 import { filterArguments, keptFilter, type PairFilter } from "./filter.js";
 import type { Place } from "./memory.js";
-import { type Argument, Id, theModule } from "./module.js";
+import { type Argument, Block, Id, theModule } from "./module.js";
 import { checkKeys, type Keys, requireBytes, requireNumbers } from "./options.js";
 import { bodyListAt, eventAt, eventListAt, gameAt, type MotionLimits } from "./records.js";
 import type { Bounces, StepPotential } from "./response.js";
@@ -29,13 +29,14 @@ function gameRecord({ respond, gravity = [0, 0, 0] }: GameOptions, call: string)
   if (respond !== null && typeof respond === "object" && "masses" in respond)
     throw new TypeError(`${call}: respond must not have masses: those of the bodies count`);
   const module = theModule();
-  const answering = answeringOf(module, respond, call, true);
+  let block: Block | null = null;
+  const answering = answeringOf(module, respond, call, true, (size) => (block = new Block(size)).address);
   const callback = answering.callback && module.keep(answering.callback);
   return [() => {
     const at = answeringRecord(module, gameAt, answering, callback?.number ?? 0);
     module.putVector(at + gameAt.gravity, vector(gravity, "gravity", call));
     return at;
-  }, callback ?? answering.kept];
+  }, callback ?? block ?? answering.kept];
 }
 
 /**

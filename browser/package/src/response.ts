@@ -34,7 +34,7 @@ export interface Roughness {
 const roughKeys: Keys<Roughness> = { tangentialRestitution: "number", friction: "number", inertia: "number" };
 
 /** Writes a ks_roughness. Throws RangeError for numbers out of range. */
-function putRoughness(to: Module, at: number, restitution: number, rough: Roughness, call: string): void {
+export function putRoughness(to: Module, at: number, restitution: number, rough: Roughness, call: string): void {
   checkKeys(rough, roughKeys, "roughness", call);
   const { tangentialRestitution = 1, friction = Infinity, inertia = 0.4 } = rough;
   if (!(Math.abs(tangentialRestitution) <= 1))
@@ -47,12 +47,6 @@ function putRoughness(to: Module, at: number, restitution: number, rough: Roughn
   to.putNumber(at + roughnessAt.tangentialRestitution, tangentialRestitution);
   to.putNumber(at + roughnessAt.friction, friction);
   to.putNumber(at + roughnessAt.inertia, inertia);
-}
-/** Returns a ks_roughness that stays. */
-export function roughBlock(module: Module, restitution: number, rough: Roughness, call: string): Block {
-  const block = new Block(roughnessAt.size);
-  putRoughness(module, block.address, restitution, rough, call);
-  return block;
 }
 
 /** Arguments of `bounce` and `settle` besides the contact. */

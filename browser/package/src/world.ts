@@ -836,13 +836,13 @@ export class World extends WorldView {
     if (this.#kept !== null) throw new Error("run: the pair filter threw at an event, which advance() has yet to return");
     const { motion, respond, atStop } = options;
     if (atStop !== undefined && typeof atStop !== "function") throw new TypeError("run: atStop must be a function of an event");
-    const answering = answeringOf(module, respond, call, atStop !== undefined);
     this.requireMoved(motion);
     const mover: Argument = (to) => to.use(motion.address);
     const atEvent = (event: number) => refusePromise(atStop!(eventFrom(module, event)), "atStop");
     return module.with(() => {
       const told = module.room(eventListAt.size);
       module.putWord(told + eventListAt.count, 0);
+      const answering = answeringOf(module, respond, call, atStop !== undefined, (size) => module.room(size));
       const user = answering.callback === null ? 0 : module.hold(answering.callback);
       const definition = answeringRecord(module, runAt, answering, user);
       module.putWord(definition + runAt.sink, module.pointer("sink"));
