@@ -120,8 +120,8 @@ export function bounce(contact: Event, options: BounceOptions = {}): Bounce {
 }
 
 /** Returns the ks_event of an event. */
-export function eventRecord({ numbers, from }: Event): Float64Array {
-  return numbers.subarray(from >> 3, (from + eventAt.size) >> 3);
+export function eventRecord(event: Event): Float64Array {
+  return event.view(0, eventAt.size / 8);
 }
 
 /** The energy of a pair, as a function of the gap between its surfaces (kinesphere/step_potential.hpp). */
