@@ -10,7 +10,6 @@ from pathlib import Path
 
 import bound
 import charts
-import examples
 import film
 import guides
 import late
@@ -36,7 +35,6 @@ PICTURES = {
     ),
     "tracks": guides.tracks,
     "python": guides.python,
-    "examples": examples.draw,
     "film": film.draw,
     "film-still": lambda: film.draw(moving=False),
 }
