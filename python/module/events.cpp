@@ -52,6 +52,16 @@ std::string text_of(const Event& event) {
   return text + ">";
 }
 
+/// Returns a kinesphere.Events of the bytes of EventRecords.
+py::object table_of_rows(std::span<const std::byte> rows) {
+  static const py::handle type = row_type(event_fields, sizeof(EventRecord)).release();
+  static const py::handle table = package_attribute("kinesphere.events", "Events").release();
+  NewArray array({rows.size() / sizeof(EventRecord)}, py::reinterpret_borrow<py::object>(type),
+                 sizeof(EventRecord));
+  if (!rows.empty()) std::memcpy(array.data<std::byte>(), rows.data(), rows.size());
+  return table(array.take());
+}
+
 /// Returns the bytes of a number or vector of this type of NumPy, such as "f8" or "3f8".
 std::size_t size_of(std::string_view type) {
   const std::size_t count = type.size() == 3 ? static_cast<std::size_t>(type.front() - '0') : 1;
@@ -102,20 +112,14 @@ void KeptEvents::add(const EventRecord& record) {
 
 py::object KeptEvents::take() {
   const std::vector<std::byte> rows = std::exchange(rows_, {});
-  if (row_size_ == 0) return table_of({});
-  NewArray array({rows.size() / row_size_},
-                 row_type(all_ ? std::span<const Field>(event_fields) : columns_, row_size_), row_size_);
+  if (all_) return table_of_rows(rows);
+  if (columns_.empty()) return table_of({});
+  NewArray array({rows.size() / row_size_}, row_type(columns_, row_size_), row_size_);
   if (!rows.empty()) std::memcpy(array.data<std::byte>(), rows.data(), rows.size());
-  return all_ ? package_attribute("kinesphere.events", "Events")(array.take()) : array.take();
+  return array.take();
 }
 
-py::object table_of(std::span<const EventRecord> records) {
-  static const py::handle type = row_type(event_fields, sizeof(EventRecord)).release();
-  static const py::handle table = package_attribute("kinesphere.events", "Events").release();
-  NewArray array({records.size()}, py::reinterpret_borrow<py::object>(type), sizeof(EventRecord));
-  if (!records.empty()) std::memcpy(array.data<EventRecord>(), records.data(), records.size_bytes());
-  return table(array.take());
-}
+py::object table_of(std::span<const EventRecord> records) { return table_of_rows(std::as_bytes(records)); }
 
 void bind_events(py::module_& module) {
   module.attr("event_dtype") = row_type(event_fields, sizeof(EventRecord));

@@ -1,4 +1,5 @@
-// Checks a report against the bound that the previous report and the motion limits imply.
+// Checks a report against the bound that the previous report and the motion limits imply, and starts the
+// bound anew from it.
 #pragma once
 
 #include <cmath>
@@ -40,6 +41,13 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
 /// no acceleration.
 double observed_acceleration(const Bound& before, const Bound& after, double radius,
                              double contact_tolerance);
+
+/// Starts a bound anew from a report whose body has the limits that it had.
+[[gnu::always_inline]] inline void restart(Bound& bound, double time, const State& report) {
+  bound.time = time;
+  bound.position = report.position;
+  bound.velocity = report.velocity;
+}
 
 /// Returns true if bound_violation() certainly finds none in a report at `time`, where nothing has changed
 /// since the previous report. Without square roots.

@@ -23,13 +23,6 @@ inline void move_to_nearest_image(const Space& space, const Bound& bound, double
   if (space.repeats()) report.position += space.shift_to_nearest(report.position, bound.centre_at(time));
 }
 
-/// Starts a bound anew from a report whose body has the limits that it had.
-[[gnu::always_inline]] inline void restart(Bound& bound, double time, const State& report) {
-  bound.time = time;
-  bound.position = report.position;
-  bound.velocity = report.velocity;
-}
-
 std::optional<BoundViolation> sum_of(const std::optional<BoundViolation>& a,
                                      const std::optional<BoundViolation>& b) {
   if (!a || !b) return a ? a : b;

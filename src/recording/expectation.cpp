@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "archive/heap_counter.hpp"
+#include "bound/bound_violation.hpp"
 #include "contact/rebound.hpp"
 
 namespace kinesphere {
@@ -44,22 +45,11 @@ void make_first(std::span<double> recent, double value) {
 /// Returns the number that somebody has typed, from one with rounding errors.
 double as_typed(double value) { return std::round(value * 1e6) / 1e6; }
 
-/// Returns the position after a steady acceleration between two velocities.
-Vec3 position_between(const State& from, const Vec3& velocity, double duration) {
-  return from.position + (0.5 * duration) * (from.velocity + velocity);
-}
-
 }  // namespace
 
-State Expectation::Flight::at(double time) const {
-  const double s = time - since;
-  return {state.position + s * (state.velocity + s * (0.5 * acceleration)),
-          state.velocity + s * acceleration};
-}
-
 Vec3 Expectation::Flight::position_at(double time, const Vec3& velocity) const {
-  const State expected = at(time);
-  return velocity == expected.velocity ? expected.position : position_between(state, velocity, time - since);
+  if (velocity == bound.velocity_at(time)) return bound.centre_at(time);
+  return bound.position + (0.5 * (time - bound.time)) * (bound.velocity + velocity);
 }
 
 Expectation::Flight& Expectation::flight(const World& world, BodyId body) {
@@ -68,9 +58,7 @@ Expectation::Flight& Expectation::flight(const World& world, BodyId body) {
   if (flight.generation == body.generation) return flight;
   flight = {.generation = body.generation};
   if (const auto now = world.body(body)) {
-    flight.since = now->bound.time;
-    flight.state = {now->bound.position, now->bound.velocity};
-    flight.acceleration = now->bound.planned_acceleration;
+    flight.bound = now->bound;
     flight.radius = now->definition.radius;
   }
   return flight;
@@ -79,17 +67,17 @@ Expectation::Flight& Expectation::flight(const World& world, BodyId body) {
 step::Answer Expectation::told(const World& world, BodyId body, double time, const State& answer) {
   Flight& flight = this->flight(world, body);
   step::Answer told;
-  told.set(0, answer.velocity, flight.at(time).velocity);
+  told.set(0, answer.velocity, flight.bound.velocity_at(time));
   told.set(3, answer.position, flight.position_at(time, answer.velocity));
-  if (told != step::Answer()) flight.restart(time, answer);
+  if (told != step::Answer()) restart(flight.bound, time, answer);
   return told;
 }
 
 State Expectation::answer(const World& world, BodyId body, double time, const step::Answer& told) {
   Flight& flight = this->flight(world, body);
-  const Vec3 velocity = told.vector(0, flight.at(time).velocity);
+  const Vec3 velocity = told.vector(0, flight.bound.velocity_at(time));
   const State answer{told.vector(3, flight.position_at(time, velocity)), velocity};
-  if (told != step::Answer()) flight.restart(time, answer);
+  if (told != step::Answer()) restart(flight.bound, time, answer);
   return answer;
 }
 
@@ -106,7 +94,7 @@ void Expectation::note(const World& world, const Step& change) {
   };
   if (const auto* set = std::get_if<step::SetVelocity>(&change)) {
     if (Flight* flight = known(set->subject))
-      flight->restart(world.time(), {flight->at(world.time()).position, set->argument});
+      restart(flight->bound, world.time(), {flight->bound.centre_at(world.time()), set->argument});
     return;
   }
   const auto forget = [&](BodyId body) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinesphere/bound.hpp"
 #include "kinesphere/response.hpp"
 #include "recording/step.hpp"
 
@@ -39,18 +40,11 @@ class Expectation {
   /// A body since its last turn, or since its last answer that was not as expected.
   struct Flight {
     std::optional<std::uint32_t> generation{};  ///< of the body; nothing if the world has to be asked
-    double since = 0.0;
-    State state{};
-    Vec3 acceleration{};
+    Bound bound{};
     double radius = 0.0;
 
-    State at(double time) const;
     /// Returns the position if this is the velocity: as planned, or after a steady acceleration.
     Vec3 position_at(double time, const Vec3& velocity) const;
-    void restart(double time, const State& now) {
-      since = time;
-      state = now;
-    }
   };
   /// How the last event turns its bodies.
   struct Turn {
