@@ -12,7 +12,7 @@ build=build/lint
 part=${1:-all}
 if [[ ! $part =~ ^(all|text|research)$ ]]; then echo "lint: usage: lint.sh [text | research]" >&2 && exit 2; fi
 
-find include src toolkit distributed c simulation programs research browser/module python/module examples tests docs \( -name '*.[ch]' -o -name '*.[ch]pp' \) \
+find include src toolkit distributed c simulation programs research browser/module python/module examples tests \( -name '*.[ch]' -o -name '*.[ch]pp' \) \
   -print0 | xargs -0 clang-format --dry-run -Werror
 /usr/bin/black --config python/pyproject.toml --quiet --diff --check python docs scripts packaging interface
 
