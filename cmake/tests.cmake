@@ -27,7 +27,13 @@ set(kinesphere_long_world
 set(kinesphere_long_simulation Long/*:Pile.Thousand*)
 set(kinesphere_long_program WatchNats.*)
 
-# Makes test_NAME of these sources, and a test NAME.* of each of its tests, with the label NAME or `long`.
+# Suites of hundreds of cases that take less time than to start a process. Each is one test of CTest.
+set(kinesphere_joined_bound Families)
+set(kinesphere_joined_motion All)
+set(kinesphere_joined_simulation Scenes)
+
+# Makes test_NAME of these sources, and a test NAME.* of each of its tests or joined suites, with the label NAME or
+# `long`.
 function(kinesphere_add_tests name)
   set(test test_${name})
   add_executable(${test} ${ARGN})
@@ -51,7 +57,13 @@ function(kinesphere_add_tests name)
   set(common DISCOVERY_TIMEOUT 60 TEST_PREFIX ${name}.)
   set(properties TIMEOUT 600 ENVIRONMENT RC_PARAMS=seed=2005)
   set(long "${kinesphere_long_${name}}")
-  gtest_discover_tests(${test} ${common} TEST_FILTER "-${long}" PROPERTIES ${properties} LABELS ${name})
+  set(joined "${kinesphere_joined_${name}}")
+  if(joined)
+    add_test(NAME ${name}.${joined} COMMAND ${test} --gtest_filter=${joined}/*)
+    set_tests_properties(${name}.${joined} PROPERTIES ${properties} LABELS ${name} COST 20)
+    set(joined ${joined}/*:)
+  endif()
+  gtest_discover_tests(${test} ${common} TEST_FILTER "-${joined}${long}" PROPERTIES ${properties} LABELS ${name})
   if(long)
     gtest_discover_tests(${test} ${common} TEST_FILTER "${long}" TEST_LIST long_tests PROPERTIES ${properties} LABELS long)
   endif()

@@ -11,6 +11,7 @@
 
 #include "kinesphere/monitor/monitor.hpp"
 #include "kinesphere/random.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere::prediction_test {
 namespace {
@@ -213,8 +214,9 @@ double gauge(const Separation& separation, const Vec3& offset, int dimensions) {
 }
 
 TEST(Predictions, AgreeWithSampledPaths) {
+  const int runs = rounds_of(12);
   std::size_t seen = 0, predicted_count = 0;
-  for (int run = 0; run < 12; ++run) {
+  for (int run = 0; run < runs; ++run) {
     SCOPED_TRACE(run);
     Random random = Random::at(11, 0, static_cast<std::uint32_t>(run));
     const int dimensions = 2 + run % 2;
@@ -321,7 +323,7 @@ TEST(Predictions, AgreeWithSampledPaths) {
     }
   }
   EXPECT_GT(predicted_count, seen / 100);
-  EXPECT_GT(seen, 100000u);
+  EXPECT_GT(seen, 8000u * static_cast<std::size_t>(runs));
 }
 
 TEST(Predictions, GoOnAfterASnapshotAsWithoutIt) {

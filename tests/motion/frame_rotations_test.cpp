@@ -15,6 +15,7 @@
 #include "kinesphere/motion/frame_motion.hpp"
 #include "kinesphere/random.hpp"
 #include "support/expect_error.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere::frame_rotations_test {
 namespace {
@@ -183,8 +184,9 @@ struct Drive {
 class DrivenCar : public testing::TestWithParam<bool> {};
 
 TEST_P(DrivenCar, MeetsPostsWhereItsSurfaceDoes) {
+  const unsigned rounds = rounds_of(4u);
   std::uint64_t met = 0, checked_speeds = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= rounds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Drive drive(seed);
     FrameMotion frames =
@@ -272,8 +274,8 @@ TEST_P(DrivenCar, MeetsPostsWhereItsSurfaceDoes) {
       }
     }
   }
-  EXPECT_GT(met, 40u);
-  EXPECT_GT(checked_speeds, 40u);
+  EXPECT_GT(met, 10 * rounds);
+  EXPECT_GT(checked_speeds, 10 * rounds);
 }
 
 INSTANTIATE_TEST_SUITE_P(FrameRotations, DrivenCar, testing::Bool(),

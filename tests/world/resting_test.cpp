@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "kinesphere/kinesphere.hpp"
 #include "number/infinity.hpp"
 #include "support/playground.hpp"
+#include "support/test_size.hpp"
 
 namespace kinesphere::resting_test {
 namespace {
@@ -275,7 +278,8 @@ TEST(Jammed, IsNotWhatManyHitAtOnce) {
 /// other.
 TEST(Bouncing, InAHeapCostsWhatTheToleranceSays) {
   constexpr std::uint32_t side = 4;
-  for (const double tolerance : {1e-3, 1e-4}) {
+  constexpr std::array tolerances{1e-3, 1e-4};
+  for (const double tolerance : std::span(tolerances).first(rounds_of(tolerances.size()))) {
     SCOPED_TRACE(tolerance);
     BallisticDefinition flight{.gravity = gravity};
     Random random(1);
