@@ -11,6 +11,7 @@ from pathlib import Path
 import bound
 import charts
 import film
+import games
 import guides
 import late
 import lessons
@@ -33,6 +34,7 @@ PICTURES = {
             "build": charts.draw_build(),
         }
     ),
+    "games": games.sheet,
     "tracks": guides.tracks,
     "python": guides.python,
     "film": film.draw,
