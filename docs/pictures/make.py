@@ -17,6 +17,7 @@ import late
 import lessons
 import pair
 import regions
+import trades
 from drawing import Sheet
 
 PICTURES = {
@@ -35,6 +36,7 @@ PICTURES = {
         }
     ),
     "games": games.sheet,
+    "trades": lambda: Sheet({name: draw() for name, draw in trades.DRAWINGS.items()}),
     "tracks": guides.tracks,
     "python": guides.python,
     "film": film.draw,

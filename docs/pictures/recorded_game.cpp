@@ -1,5 +1,5 @@
-// Records the run of an example whose calls are linked to these functions (ld --wrap), for games.py. The game that it
-// plays longest is written to the file that the environment variable KINESPHERE_RECORDING names.
+// Records the run of an example whose calls are linked to these functions (ld --wrap), for games.py. The game
+// that it plays longest is written to the file that the environment variable KINESPHERE_RECORDING names.
 #include <cstdlib>
 #include <fstream>
 

@@ -19,8 +19,9 @@ Array = npt.ArrayLike
 Bodies = Union[SupportsIndex, Sequence[SupportsIndex], npt.NDArray[np.integer[Any]]]
 Function = Callable[[Ids, float], tuple[Array, Array]]
 Probe = Union[Motion, BodyMap, MotionSource, Function]
-Response = Union[Bouncing, Roughness, StepPotential, Scene, Callable[[Event], object]]
-GameResponse = Union[Bouncing, Roughness, StepPotential, Callable[[Event], object]]
+ReadyResponse = Union[Bouncing, Roughness, StepPotential]
+GameResponse = Union[ReadyResponse, dict[int, ReadyResponse], Callable[[Event], object]]
+Response = Union[GameResponse, Scene]
 Shape = Union[Ball, Box, HalfSpace, Triangle, Mesh]
 Parts = Sequence[Union[Ball, Capsule, Hull]]
 # Velocity and angular velocity.

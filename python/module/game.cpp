@@ -5,7 +5,6 @@
 
 #include "errors.hpp"
 #include "exchange.hpp"
-#include "kinesphere/step_potential.hpp"
 #include "moving.hpp"
 #include "world.hpp"
 
@@ -28,22 +27,13 @@ struct GameHandle : WorldHandle {
   /// Lets Ctrl-C through, and the exceptions of a function.
   GameResponse response(const py::object& given) {
     if (given.is_none()) return [this](const Event&) { return interruptions->look(), Response{}; };
-    if (py::isinstance<Bouncing>(given))
-      return [this, &bouncing = given.cast<const Bouncing&>()](const Event& event) {
-        return interruptions->look(), bouncing.answer(event);
-      };
-    if (py::isinstance<StepPotential>(given))
-      return [this, &potential = given.cast<const StepPotential&>()](const Event& event) {
-        return interruptions->look(), potential.respond(event);
-      };
-    if (py::isinstance<Roughness>(given))
-      return [this, &rough = given.cast<const Roughness&>()](const Event& event) {
-        return interruptions->look(), answer_of_rough(event, rough);
-      };
+    if (const auto ready = ReadyResponse::of(given, "GameWorld"))
+      return [this, ready](const Event& event) { return interruptions->look(), (*ready)(event); };
     if (PyCallable_Check(given.ptr()) == 0 || PyType_Check(given.ptr()) != 0)
       throw py::type_error(
-          "GameWorld: respond must be a Bouncing, a Roughness, a StepPotential or a function of an event, "
-          "but is " +
+          "GameWorld: respond must be a Bouncing, a Roughness, a StepPotential, a dict of these or a "
+          "function "
+          "of an event, but is " +
           py::repr(given).cast<std::string>());
     return [this](const Event& event) {
       return interruptions->call([&] { return answer_of(respond(event), is_plane()); });
@@ -155,7 +145,7 @@ motions, probes, run() and set_motion_limits() are not, and raise StateError.
       .def(py::init(&create_game), py::arg("gravity") = py::make_tuple(0.0, 0.0, 0.0),
            py::arg("respond") = py::none(),
            R"(gravity (length / time^2): shape (3,), or (2,) in two dimensions; acts on all bodies.
-respond: what gives bodies new velocities at an event: a Bouncing, a Roughness, a StepPotential, or a function as for World.run(),
+respond: what gives bodies new velocities at an event: a Bouncing, a Roughness, a StepPotential, a dict of these or a function, as for World.run(),
 which may depend on the event alone and may not call the game. None: bodies pass through each other.
 All other arguments are those of World, by name.)")
       .def("step", &step_game, py::arg("dt"),

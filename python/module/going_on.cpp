@@ -126,30 +126,23 @@ class Responding {
         plane_(handle.is_plane()),
         given_(py::reinterpret_borrow<py::object>(given)) {
     if (given.is_none()) return;
-    if (py::isinstance<Bouncing>(given)) {
-      bouncing_ = &given.cast<const Bouncing&>();
-    } else if (py::isinstance<StepPotential>(given)) {
-      potential_ = &given.cast<const StepPotential&>();
-    } else if (py::isinstance<Roughness>(given)) {
-      rough_ = &given.cast<const Roughness&>();
-    } else if (py::isinstance<SceneHandle>(given)) {
+    ready_ = ReadyResponse::of(given, "run");
+    if (py::isinstance<SceneHandle>(given)) {
       scene_ = &given.cast<const SceneHandle&>();
-    } else if (PyCallable_Check(given.ptr()) == 0 || PyType_Check(given.ptr()) != 0) {
+    } else if (!ready_ && (PyCallable_Check(given.ptr()) == 0 || PyType_Check(given.ptr()) != 0)) {
       throw py::type_error(
-          "run: respond must be a Bouncing, a Roughness, a StepPotential, a Scene or a function of an event, "
-          "but is " +
+          "run: respond must be a Bouncing, a Roughness, a StepPotential, a dict of these, a Scene or a "
+          "function of an event, but is " +
           py::repr(given).cast<std::string>());
     }
   }
   explicit operator bool() const { return !given_.is_none(); }
-  bool hops() const { return bouncing_ != nullptr && bouncing_->hops(); }
-  bool settles() const { return bouncing_ != nullptr && bouncing_->settles(); }
+  bool hops() const { return ready_ && ready_->any(&Bouncing::hops); }
+  bool settles() const { return ready_ && ready_->any(&Bouncing::settles); }
 
   /// Needs no GIL.
   Response operator()(const Event& event) const {
-    if (bouncing_ != nullptr) return bouncing_->answer(event);
-    if (potential_ != nullptr) return potential_->respond(event);
-    if (rough_ != nullptr) return answer_of_rough(event, *rough_);
+    if (ready_) return (*ready_)(event);
     if (scene_ != nullptr) {
       check_known(event.first);
       check_known(event.second);
@@ -174,9 +167,7 @@ class Responding {
   bool may_stop_;
   bool plane_;
   py::object given_;
-  const Bouncing* bouncing_ = nullptr;
-  const StepPotential* potential_ = nullptr;
-  const Roughness* rough_ = nullptr;
+  std::optional<ReadyResponse> ready_;
   const Scene* scene_ = nullptr;
 };
 
@@ -332,8 +323,8 @@ it is left early, the world stands at the last event. Each step is an advance().
 
 motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any
 probe.
-respond: what gives bodies new velocities at an event: a Bouncing, a Roughness, a StepPotential, a Scene, or a function of the Event that
-returns None or (first velocity or None, second velocity or None); for a rigid body a tuple (velocity or None,
+respond: what gives bodies new velocities at an event: a Bouncing, a Roughness, a StepPotential; a dict of these for the
+states of pairs, as {0: well, 1: bond} (set_pair_state()); a Scene; or a function of the Event that returns None or (first velocity or None, second velocity or None); for a rigid body a tuple (velocity or None,
 angular velocity or None), as bounce_rigid() makes it, may take the place of its velocity; for any body so may
 'remove', 'disable' or 'sleep', which do to it what the methods of the world do. (first, second, 'stop') stops the
 world at this event. It must depend on the event alone, and may not call the world. Removed bodies leave a BodyMap

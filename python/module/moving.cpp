@@ -124,10 +124,11 @@ Bouncing::Bouncing(const py::object& masses, double restitution, double resting_
              "is " + py::repr(masses).cast<std::string>());
     if (numbers.dimensions() > 1)
       refuse({call, "masses"}, "must have shape (n,)", "has shape " + numbers.shape());
-    masses_ = each_of(masses, {call, "masses"}, numbers.length(0));
+    masses_ =
+        std::make_shared<const std::vector<double>>(each_of(masses, {call, "masses"}, numbers.length(0)));
+    for (const double mass : *masses_)
+      if (!(mass > 0.0)) refuse({call, "masses"}, "must be > 0", "is " + shown(mass));
   }
-  for (const double mass : masses_.value_or(std::vector<double>()))
-    if (!(mass > 0.0)) refuse({call, "masses"}, "must be > 0", "is " + shown(mass));
   require_bounce(call, restitution, resting_speed);
 }
 
@@ -151,6 +152,68 @@ double Bouncing::mass(BodyId body, double own) const {
   throw BadResult({ErrorCode::out_of_range, "masses", body,
                    "run: respond: masses must have one number for each body, but has " +
                        std::to_string(masses_->size()) + ", and none for body " + to_string(body)});
+}
+
+namespace {
+
+/// Returns nothing for what is no state of a pair.
+std::optional<std::int32_t> state_of(py::handle given) {
+  if (PyIndex_Check(given.ptr()) == 0) return std::nullopt;
+  try {
+    return py::reinterpret_borrow<py::object>(given).cast<std::int32_t>();
+  } catch (const py::cast_error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::optional<ReadyResponse::One> ReadyResponse::one_of(py::handle given) {
+  if (py::isinstance<Bouncing>(given)) return given.cast<const Bouncing&>();
+  if (py::isinstance<Roughness>(given)) return given.cast<const Roughness&>();
+  if (py::isinstance<StepPotential>(given)) return given.cast<const StepPotential&>();
+  return std::nullopt;
+}
+
+std::optional<ReadyResponse> ReadyResponse::of(const py::object& given, std::string_view call) {
+  ReadyResponse ready;
+  ready.for_all_ = one_of(given);
+  if (ready.for_all_) return ready;
+  if (PyDict_Check(given.ptr()) == 0) return std::nullopt;
+  const std::string name = std::string(call) + ": respond: ";
+  for (const auto& [key, response] : given.cast<py::dict>()) {
+    const auto state = state_of(key);
+    if (!state)
+      throw py::type_error(name + "keys must be states of pairs, whole numbers of 32 bits, but one is " +
+                           py::repr(key).cast<std::string>());
+    const auto one = one_of(response);
+    if (!one)
+      throw py::type_error(name + "values must be a Bouncing, a Roughness or a StepPotential, but one is " +
+                           py::repr(response).cast<std::string>());
+    ready.by_state_.emplace(*state, *one);
+  }
+  return ready;
+}
+
+Response ReadyResponse::operator()(const Event& event) const {
+  const One* one = for_all_ ? &*for_all_ : nullptr;
+  if (one == nullptr) {
+    const auto found = by_state_.find(event.pair_state);
+    if (found == by_state_.end()) return {};
+    one = &found->second;
+  }
+  if (const auto* const bouncing = std::get_if<Bouncing>(one)) return bouncing->answer(event);
+  if (const auto* const rough = std::get_if<Roughness>(one)) return answer_of_rough(event, *rough);
+  return std::get<StepPotential>(*one).respond(event);
+}
+
+bool ReadyResponse::any(bool (Bouncing::*holds)() const) const {
+  const auto does = [holds](const One& one) {
+    const auto* const bouncing = std::get_if<Bouncing>(&one);
+    return bouncing != nullptr && (bouncing->*holds)();
+  };
+  return (for_all_ && does(*for_all_)) ||
+         std::any_of(by_state_.begin(), by_state_.end(), [&](const auto& each) { return does(each.second); });
 }
 
 namespace {

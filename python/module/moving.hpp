@@ -3,10 +3,13 @@
 
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "guard.hpp"
@@ -78,13 +81,34 @@ class Bouncing {
   /// Returns the given mass of a body, or `own` if none were given.
   double mass(BodyId body, double own) const;
 
-  std::optional<std::vector<double>> masses_;
+  std::shared_ptr<const std::vector<double>> masses_;  ///< null: bodies have masses of their own
   double restitution_;
   double resting_speed_;
 };
 
 /// Returns the response of rough balls to a begin.
 Response answer_of_rough(const Event& event, const Roughness& rough);
+
+/// A Bouncing, a Roughness or a StepPotential as a response, or one of these for each state of pairs. Needs
+/// no GIL.
+class ReadyResponse {
+ public:
+  /// Returns nothing for an object that is none of these. Throws TypeError and InvalidValue, with the name of
+  /// the call, for a dict of something else.
+  static std::optional<ReadyResponse> of(const py::object& given, std::string_view call);
+
+  Response operator()(const Event& event) const;
+  /// True if Bouncing::hops() or Bouncing::settles() holds for one of them.
+  bool any(bool (Bouncing::*holds)() const) const;
+
+ private:
+  using One = std::variant<Bouncing, Roughness, StepPotential>;
+
+  static std::optional<One> one_of(py::handle given);
+
+  std::optional<One> for_all_;
+  std::map<std::int32_t, One> by_state_;  ///< pairs in other states go on as before
+};
 
 /// Converts the result of a Python function for an event: None, or for each of the two bodies a velocity, a
 /// tuple (velocity, angular velocity), the name of a BodyAction, or None, and possibly "stop" behind them.

@@ -1,8 +1,10 @@
 """Timers, states of pairs, and potentials of steps."""
 
+import math
 import pickle
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 import kinesphere as ks
@@ -47,6 +49,48 @@ def test_a_square_well_speeds_up_and_holds_back() -> None:
     leaves = events.of_kind(ks.EventKind.sensor_leave)
     assert len(leaves) == pytest.approx(40, abs=1) and len(world.sensor_overlaps(0)) == 1
     assert len(events.of_kind(ks.EventKind.sensor_enter)) == 1
+
+
+def test_pairs_in_each_state_have_a_response_of_their_own() -> None:
+    """A chain whose bonds hold, among free balls that bounce, in a run and in a game."""
+    count, side, bonded = 24, 12.0, 5
+    places = np.column_stack([0.7 + 1.1 * (np.arange(count) % 10), 1.0 + 2.0 * (np.arange(count) // 10)])
+    speeds = np.random.default_rng(2).normal(size=(count, 2))
+    box = ((0, 0), (side, side))
+
+    def chained(world: ks.World, ids: npt.NDArray[np.int64]) -> ks.StepPotential:
+        bond = ks.StepPotential(world, [0.4], [0.0], outside=math.inf)
+        world.set_sensor(0, bond.distances)
+        for first, second in zip(ids[:9], ids[1:10], strict=True):
+            world.set_pair_state(ks.BodyId(first), ks.BodyId(second), bonded)
+        return bond
+
+    motion = ks.Ballistic(places, speeds)
+    world = ks.World(dimensions=2, box=box, contacts="impacts")
+    ids = world.add_motion(motion, 0.5)
+    bond = chained(world, ids)
+    game = ks.GameWorld(dimensions=2, box=box, contacts="impacts")
+    game.respond = {0: ks.Bouncing(), np.int64(bonded): chained(game, game.add(places, speeds, 0.5))}
+    for time in range(1, 31):
+        events = world.run(float(time), motion, {bonded: bond, 0: ks.Bouncing()})
+        assert [event.time for event in game.step(time - game.time)] == [event.time for event in events]
+        chain = motion.states(float(time))[0][:10]
+        assert np.all(np.linalg.norm(np.diff(chain, axis=0), axis=1) < 1.4 + 1e-6)
+    free = motion.states(30.0)[0][10:]
+    assert np.max(np.linalg.norm(np.diff(free, axis=0), axis=1)) > 3.0
+    energy = np.sum(motion.states(30.0)[1] ** 2)
+    assert energy == pytest.approx(np.sum(speeds**2), rel=1e-12)
+
+    for wrong, message in [
+        ({"a": bond}, "keys must be states of pairs, whole numbers of 32 bits, but one is 'a'"),
+        ({2**40: bond}, "keys must be states of pairs, whole numbers of 32 bits, but one is 1099511627776"),
+        ({0: None}, "values must be a Bouncing, a Roughness or a StepPotential, but one is None"),
+    ]:
+        with pytest.raises(TypeError, match=f"^run: respond: {message}"):
+            world.run(31.0, motion, wrong)  # type: ignore[arg-type]
+        with pytest.raises(TypeError, match=f"^GameWorld: respond: {message}"):
+            game.respond = wrong  # type: ignore[assignment]
+    assert world.run(31.0, motion, {}).of_kind(ks.EventKind.contact_begin) is not None
 
 
 def test_a_loop_turns_back_and_reads_states_of_pairs() -> None:

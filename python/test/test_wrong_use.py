@@ -303,7 +303,7 @@ def test_calls_that_fit_no_function_name_the_argument() -> None:
         (lambda: w.set_solid(0, "no"), "set_solid: solid must be True or False, but is 'no'"),  # type: ignore[arg-type]
         (lambda: w.run(np.datetime64("2024-01-01"), motion), "run: until must be a number, but is "),  # type: ignore[call-overload]
         (lambda: motion.states(np.array([0, 1]), 0.1), "states: t must be a number, but is "),  # type: ignore[arg-type]
-        (lambda: w.run(1.0, motion, ks.Bouncing), "run: respond must be a Bouncing, a Roughness, a StepPotential, a Scene or a function of an event, but is <class "),  # type: ignore[arg-type]
+        (lambda: w.run(1.0, motion, ks.Bouncing), "run: respond must be a Bouncing, a Roughness, a StepPotential, a dict of these, a Scene or a function of an event, but is <class "),  # type: ignore[arg-type]
         (lambda: w.run(1.0, ks.Ballistic), "run: probe must be a motion or a function .*, but is <class "),  # type: ignore[arg-type]
         (lambda: w.run(1.0, motion.states), "states: t must be a number, but is "),  # type: ignore[arg-type]
         (lambda: ks.World(dimensions=2.5), "World: dimensions must be a whole number, but is 2.5"),  # type: ignore[arg-type]
