@@ -64,6 +64,13 @@ Expectation::Flight& Expectation::flight(const World& world, BodyId body) {
   return flight;
 }
 
+/// What is expected of a body depends on when it is first asked for, so this must not depend on the choice of a
+/// turn, which the replay does not search.
+void Expectation::know_bodies_of_event(const World& world) {
+  flight(world, event_->first);
+  if (event_->second != no_body) flight(world, event_->second);
+}
+
 step::Answer Expectation::told(const World& world, BodyId body, double time, const State& answer) {
   Flight& flight = this->flight(world, body);
   step::Answer told;
@@ -115,6 +122,7 @@ std::optional<Rebound> Expectation::rebound_of(const World& world, const Step& c
   Rebound rebound{.second = is(body, event_->second), .spin = spin != nullptr};
   if (body == no_body || (!rebound.second && !is(body, event_->first))) return {};
   if (!turn_) {
+    know_bodies_of_event(world);
     turn_ = turn_to(world, rebound.second, rebound.spin, velocity);
     learn(*turn_);
     rebound.choice = turn_->choice;
@@ -127,6 +135,7 @@ std::optional<Rebound> Expectation::rebound_of(const World& world, const Step& c
 std::optional<Step> Expectation::change_of(const World& world, const Rebound& rebound) {
   if (!event_) return {};
   if (rebound.choice != Rebound::as_before) {
+    know_bodies_of_event(world);
     turn_ = turn_of(world, rebound.choice, rebound.speed);
     learn(*turn_);
   }

@@ -54,6 +54,7 @@ class Expectation {
   };
 
   Flight& flight(const World& world, BodyId body);
+  void know_bodies_of_event(const World& world);
 
   /// Returns the turn of a choice; `speed` is that of told_speed. Precondition: there is an event.
   Turn turn_of(const World& world, std::uint8_t choice, double speed);
