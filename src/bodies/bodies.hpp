@@ -23,6 +23,7 @@
 #include "contact/contact_event.hpp"
 #include "contact/sensor_table.hpp"
 #include "kinesphere/world_definition.hpp"
+#include "number/infinity.hpp"
 #include "space/space.hpp"
 
 namespace kinesphere {
@@ -141,12 +142,12 @@ class Bodies {
   /// Bodies that are read get ids with tag 0.
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
-    auto& [changes, sleep_records, filters, masses, radii, images, shapes, rigid, sensors, definition, space,
-           enclosure, table] = self;
+    auto& [changes, sleep_records, filters, masses, radii, images, shapes, rigid, sensors, common_reach,
+           definition, space, enclosure, table] = self;
     auto& [bodies, live_count, free, tag, names] = table;
     auto& [by_number, pair_filter, any] = filters;
     archive(bodies, live_count, changes, sleep_records, by_number, masses, radii, images, free, shapes, rigid,
-            sensors, any);
+            sensors, common_reach, any);
     if constexpr (!std::is_const_v<Self>) tag = 0;
   }
   /// Returns the name of the part that no sequence of calls could have produced, or nullptr if there is none.
@@ -163,6 +164,9 @@ class Bodies {
   Shapes shapes;
   RigidBodies rigid;
   SensorTable sensors;
+  /// Each body senses at least this far (length). Infinity where that is not known, as on a rank, which does
+  /// not know all bodies.
+  double common_reach = infinity;
 
  private:
   std::uint32_t describe(std::uint32_t number, const BodyDefinition& definition, double now);

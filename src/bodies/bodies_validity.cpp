@@ -61,6 +61,11 @@ const char* Bodies::first_invalid_part(double now, const std::vector<std::uint32
   if (!bodies_are_valid(now, dirty)) return "bodies";
   for (int number = 0; number <= std::numeric_limits<SensorClass>::max(); ++number)
     if (!check_sensor(sensors.of(static_cast<SensorClass>(number)), definition_)) return "sensors";
+  if (!(common_reach >= 0.0)) return "sensors";
+  for (std::uint32_t number = 0; number < numbers(); ++number)
+    if (table_[number].alive && sensors.reach(table_[number].sensor_class) < common_reach &&
+        common_reach < infinity)
+      return "sensors";
   return nullptr;
 }
 

@@ -60,7 +60,7 @@ Result<void> World::Engine::spot_check() {
 
 Box World::Engine::box(std::uint32_t number) const {
   const Vec3 centre = core().region_centre(number);
-  const double reach = core().region_reach(number);
+  const double reach = core().region_reach(number) + left_out_of_extents(bodies());
   return bodies().space().within({centre - Vec3{reach, reach, reach}, centre + Vec3{reach, reach, reach}});
 }
 

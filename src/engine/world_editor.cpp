@@ -1,5 +1,7 @@
 #include "engine/world_editor.hpp"
 
+#include <algorithm>
+
 #include "bodies/shaped_body.hpp"
 
 namespace kinesphere {
@@ -17,7 +19,22 @@ BodyId World::WorldEditor::insert(const BodyDefinition& definition, auto give_fo
   insert_at(number, bound_now(definition, time()));
   state_.contacts.add(number, bodies().largest_acceleration(number));
   if (bodies()[number].has_shape()) state_.contacts.set_shape(number, bodies()[number].is_static());
+  note_common_reach(sensor_reach(bodies(), number));
   return bodies().id_of(number);
+}
+
+/// A body senses up to this distance (length).
+void World::WorldEditor::note_common_reach(double reach) {
+  const bool is_only_one = bodies().table().live_count() == 1;
+  set_common_reach(is_only_one ? reach : std::min(reach, bodies().common_reach));
+}
+
+/// All bodies sense at least up to this distance (length), which their extents in the core depend on.
+void World::WorldEditor::set_common_reach(double reach) {
+  if (reach == bodies().common_reach) return;
+  state_.bodies.common_reach = reach;
+  for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
+    if (bodies()[number].present()) register_with_new_extent(number);
 }
 
 BodyId World::WorldEditor::add(const BodyDefinition& definition) {
@@ -229,12 +246,17 @@ void World::WorldEditor::set_solid(BodyId id, bool solid) {
 
 void World::WorldEditor::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
   state_.bodies.sensors.set(sensor_class, sensor);
-  for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
+  double common = infinity;
+  for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
     if (bodies()[number].sensor_class == sensor_class) refresh_filter(bodies().id_of(number));
+    if (bodies()[number].alive) common = std::min(common, sensor_reach(bodies(), number));
+  }
+  set_common_reach(common);
 }
 
 void World::WorldEditor::set_sensor_class(BodyId id, SensorClass sensor_class) {
   state_.bodies[id.index].sensor_class = sensor_class;
+  note_common_reach(sensor_reach(bodies(), id.index));
   refresh_filter(id);
 }
 
@@ -245,6 +267,10 @@ void World::WorldEditor::refresh_filter(BodyId id) {
   main_.events().drop_pending(number, [this](const Event& event) { return may_hold(event); });
   if (!bodies()[number].present()) return;
   end_contacts(number, [this](const Event& end) { return !may_hold(end); });
+  register_with_new_extent(number);
+}
+
+void World::WorldEditor::register_with_new_extent(std::uint32_t number) {
   state_.bodies[number].relocated = true;
   main_.invalidate(number);
 }

@@ -64,6 +64,9 @@ class World::WorldEditor {
   BodyId insert(const BodyDefinition& definition, auto give_form);
   void insert_at(std::uint32_t number, const Bound& bound);
   void register_anew(std::uint32_t number);
+  void register_with_new_extent(std::uint32_t number);
+  void note_common_reach(double reach);
+  void set_common_reach(double reach);
   void replace(std::uint32_t number, const Bound& bound);
   void end_contacts_outside(std::uint32_t number, const CollisionShape& replacement);
   void end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends);

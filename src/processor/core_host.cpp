@@ -4,12 +4,13 @@
 
 namespace kinesphere {
 
-/// Returns the bound of a body as the core knows it: the ball around its shape, as far as it senses.
+/// Returns the bound of a body as the core knows it: the ball around its shape, as far as it senses, less
+/// what is common to all (left_out_of_extents()).
 Bound EventProcessor::extent_of(std::uint32_t number) const {
   const Body& body = bodies()[number];
-  if (body.is_static()) return ball_around_static(bodies(), number, time_);
-  Bound extent = body.bound;
-  extent.radius += sensor_reach(bodies(), number);
+  Bound extent = body.is_static() ? ball_around_static(bodies(), number, time_) : body.bound;
+  if (!body.is_static()) extent.radius += sensor_reach(bodies(), number);
+  extent.radius -= left_out_of_extents(bodies());
   return extent;
 }
 

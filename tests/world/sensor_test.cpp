@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -159,6 +160,39 @@ TEST(Sensor, ChangedInMidApproachKeepsWhatStillCounts) {
   EXPECT_TRUE(is_clean(p.world));
   const std::vector<std::tuple<EventKind, double>> later{{sensor_enter, 4}, {contact_begin, 0}};
   EXPECT_EQ(crossings(p.run(10.2)), later);
+}
+
+/// What all bodies sense alike is left out of their extents in the core: this one ends that, in three ways.
+TEST(Sensor, SensesOneThatComesLaterAndSensesNothing) {
+  for (const int way : {0, 1, 2}) {
+    SCOPED_TRACE(way);
+    Playground p;
+    p.world.set_sensor(watchful, {.distances = {4}}).value();
+    const BodyId guard = p.add({.radius = 1, .sensor_class = watchful});
+    for (int k = 1; k < 20; ++k)
+      p.add({.radius = 1, .position = {0, 20.0 * k, 0}, .sensor_class = watchful});
+    BodyDefinition passes{
+        .radius = 1, .position = {-20, 5.5, 0}, .velocity = {10, 0, 0}, .sensor_class = watchful};
+    if (way == 0) passes.sensor_class = 0;
+    EXPECT_TRUE(p.run(1.0).empty());
+    const BodyId body = p.add(passes);
+    if (way == 1) p.world.change(body, {.sensor_class = SensorClass{0}}).value();
+    if (way == 2) {
+      // All sense less far, but for the guard.
+      p.world.set_sensor(0, {.distances = {4}}).value();
+      p.world.change(guard, {.sensor_class = SensorClass{0}}).value();
+      p.world.set_sensor(watchful, {.distances = {}}).value();
+    }
+    const auto events = p.run(1.0 + 4.0);
+    // 6 from centre to centre, 5.5 of it on y.
+    const double half_chord = std::sqrt(6.0 * 6.0 - 5.5 * 5.5);
+    ASSERT_EQ(events.size(), 2u) << events;
+    EXPECT_EQ(events[0].kind, EventKind::sensor_enter);
+    EXPECT_NEAR(events[0].time, 1.0 + (20.0 - half_chord) / 10.0, 2.0 * eps);
+    EXPECT_EQ(events[0].first, guard);
+    EXPECT_EQ(events[0].second, body);
+    EXPECT_EQ(events[1].kind, EventKind::sensor_leave);
+  }
 }
 
 TEST(Sensor, TakesBackWhatItsChangeMadeUntrueAtTheSameInstant) {
