@@ -169,8 +169,7 @@ TEST(Sensor, SensesOneThatComesLaterAndSensesNothing) {
     Playground p;
     p.world.set_sensor(watchful, {.distances = {4}}).value();
     const BodyId guard = p.add({.radius = 1, .sensor_class = watchful});
-    for (int k = 1; k < 20; ++k)
-      p.add({.radius = 1, .position = {0, 20.0 * k, 0}, .sensor_class = watchful});
+    for (int k = 1; k < 20; ++k) p.add({.radius = 1, .position = {0, 20.0 * k, 0}, .sensor_class = watchful});
     BodyDefinition passes{
         .radius = 1, .position = {-20, 5.5, 0}, .velocity = {10, 0, 0}, .sensor_class = watchful};
     if (way == 0) passes.sensor_class = 0;
