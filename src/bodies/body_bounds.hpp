@@ -83,9 +83,9 @@ inline Sensing sensing_of(const Bodies& bodies, std::uint32_t number) {
 inline double sensor_reach(const Bodies& bodies, std::uint32_t number) {
   return bodies.sensors.any() ? bodies.sensors.reach(bodies[number].sensor_class) : 0.0;
 }
-/// Returns half of the distance (length) at which all bodies sense others. Extents of bodies leave it out: two
-/// bodies sense each other up to the larger of their reaches, a and b, which are at least the common one, c,
-/// so (a - c/2) + (b - c/2) >= max(a, b).
+/// Returns half of the distance (length) at which all bodies sense others. Extents of bodies leave it out:
+/// two bodies sense each other up to the larger of their reaches, a and b, which are at least the common one,
+/// c, so (a - c/2) + (b - c/2) >= max(a, b).
 inline double left_out_of_extents(const Bodies& bodies) {
   return bodies.common_reach < infinity ? 0.5 * bodies.common_reach : 0.0;
 }

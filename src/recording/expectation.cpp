@@ -64,8 +64,8 @@ Expectation::Flight& Expectation::flight(const World& world, BodyId body) {
   return flight;
 }
 
-/// What is expected of a body depends on when it is first asked for, so this must not depend on the choice of a
-/// turn, which the replay does not search.
+/// What is expected of a body depends on when it is first asked for, so this must not depend on the choice of
+/// a turn, which the replay does not search.
 void Expectation::know_bodies_of_event(const World& world) {
   flight(world, event_->first);
   if (event_->second != no_body) flight(world, event_->second);
