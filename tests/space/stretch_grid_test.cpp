@@ -29,7 +29,7 @@ Pairs found_among(const std::vector<Stretch>& stretches, std::size_t* compared =
   for (std::uint32_t slot = 0; slot < grid.slots(); ++slot)
     for (const std::uint32_t behind : grid.search_behind(slot)) {
       EXPECT_GT(behind, slot);
-      const auto pair = std::minmax(grid.number_at(slot), grid.number_at(behind));
+      const auto pair = std::minmax({grid.number_at(slot), grid.number_at(behind)});
       EXPECT_TRUE(found.insert(pair).second) << "each once: " << pair.first << ' ' << pair.second;
     }
   if (compared != nullptr) *compared = grid.compared();
