@@ -1,87 +1,17 @@
 // The engine's knowledge and events, drawn over the spheres.
 import type { BodyView, Box } from "kinesphere";
-import {
-  BoxGeometry, BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, LineBasicMaterial, LineSegments,
-  Mesh, MeshBasicMaterial, type Scene,
-} from "three";
+import { BoxGeometry, Color, Mesh, MeshBasicMaterial, type Scene } from "three";
 import { along, type Palette, placeOfDuration } from "./colours.ts";
+import { Lines } from "./lines.ts";
 import type { Settings } from "./settings.ts";
 import { shiftInto, type Shown, type ReportedEvent, wrapInto } from "./shown.ts";
 import { MissedMarks, Sparks } from "./sparks.ts";
 import { Spheres } from "./spheres.ts";
 import { Trails } from "./trails.ts";
+import { Ways } from "./ways.ts";
 
 /** Life of the spark of a contact that a loop misses, of which there are few; that of others is 1. */
 const missedLife = 2;
-
-/** Lines that change in number from picture to picture. */
-class Lines {
-  readonly object: LineSegments<BufferGeometry, LineBasicMaterial>;
-  private points = new Float32Array(0);
-  private colours = new Float32Array(0);
-  private count = 0;
-  constructor(opacity: number) {
-    this.object = new LineSegments(new BufferGeometry(),
-      new LineBasicMaterial({ vertexColors: true, transparent: true, opacity, depthWrite: false }));
-    this.object.frustumCulled = false;
-    this.object.visible = false;
-  }
-  begin(lines: number): void {
-    this.count = 0;
-    if (6 * lines <= this.points.length) return;
-    this.points = new Float32Array(9 * lines);
-    this.colours = new Float32Array(9 * lines);
-    this.object.geometry.dispose();
-    this.object.geometry = new BufferGeometry()
-      .setAttribute("position", new BufferAttribute(this.points, 3).setUsage(DynamicDrawUsage))
-      .setAttribute("color", new BufferAttribute(this.colours, 3).setUsage(DynamicDrawUsage));
-  }
-  point(x: number, y: number, z: number, colour: Color): void {
-    const at = 3 * this.count++;
-    this.points[at] = x;
-    this.points[at + 1] = y;
-    this.points[at + 2] = z;
-    this.colours[at] = colour.r;
-    this.colours[at + 1] = colour.g;
-    this.colours[at + 2] = colour.b;
-  }
-  /** Adds a line from one body to the other or, in periodic space, to its nearest image. */
-  between({ box, periodic }: Shown, positions: Float64Array, first: number, second: number, colour: Color): void {
-    const from = positions.subarray(3 * first, 3 * first + 3);
-    const to = positions.slice(3 * second, 3 * second + 3);
-    for (let axis = 0; box !== null && axis < 3; ++axis) {
-      if (!periodic[axis]) continue;
-      const size = box.upper[axis]! - box.lower[axis]!;
-      to[axis]! -= size * Math.round((to[axis]! - from[axis]!) / size);
-    }
-    this.point(from[0]!, from[1]!, from[2]!, colour);
-    this.point(to[0]!, to[1]!, to[2]!, colour);
-  }
-  /** The twelve edges of a box. */
-  box(lower: ArrayLike<number>, upper: ArrayLike<number>, colour: Color): void {
-    const corner = (bits: number) => this.point((bits & 1 ? upper : lower)[0]!, (bits & 2 ? upper : lower)[1]!,
-                                                (bits & 4 ? upper : lower)[2]!, colour);
-    for (let from = 0; from < 8; ++from) {
-      for (const bit of [1, 2, 4]) {
-        if (from & bit) continue;
-        corner(from);
-        corner(from | bit);
-      }
-    }
-  }
-  end(): void {
-    const { geometry } = this.object;
-    geometry.setDrawRange(0, this.count);
-    for (const name of ["position", "color"]) {
-      const attribute = geometry.getAttribute(name);
-      if (attribute !== undefined) attribute.needsUpdate = true;
-    }
-    this.object.visible = this.count > 0;
-  }
-  hide(): void {
-    this.object.visible = false;
-  }
-}
 
 export class Overlays {
   /** A number for each body from 0 to 1, near 1 just after a probe. */
@@ -94,6 +24,8 @@ export class Overlays {
   private readonly alarms = new Lines(0.95);
   private readonly pull = new Lines(0.9);
   private readonly trails: Trails;
+  private readonly ways: Ways;
+  private readonly chosen = new Lines(1);
   private readonly zoneMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
   private zone: Mesh | null = null;
   private zoneFlash = 0;
@@ -106,8 +38,9 @@ export class Overlays {
     this.sparks = new Sparks(scene);
     this.missed = new MissedMarks(scene);
     this.trails = new Trails(scene);
+    this.ways = new Ways(scene);
     scene.add(this.bounds.object, this.boxes.object, this.cells.object, this.certificates.object,
-              this.alarms.object, this.pull.object);
+              this.alarms.object, this.pull.object, this.chosen.object);
   }
 
   paint(palette: Palette, isDark: boolean): void {
@@ -121,6 +54,7 @@ export class Overlays {
     this.missed.clear();
     this.glow = new Float32Array(0);
     this.trails.show(shown);
+    this.ways.show(shown);
     if (this.zone !== null) {
       this.scene.remove(this.zone);
       this.zone.geometry.dispose();
@@ -151,8 +85,8 @@ export class Overlays {
     }
   }
 
-  /** `views` is set if a visible overlay needs it. */
-  update(shown: Shown, views: readonly BodyView[] | null, positions: Float64Array, settings: Settings,
+  /** `views` is set if a visible overlay needs it; `chosen` are places of the chosen bodies. */
+  update(shown: Shown, views: readonly BodyView[] | null, positions: Float64Array, settings: Settings, chosen: readonly number[],
          seconds: number, calm: boolean, pixels: number): void {
     const on = settings.overlays;
     this.sparks.fade(on.contacts ? seconds : Infinity, calm, pixels);
@@ -170,7 +104,9 @@ export class Overlays {
     if (views !== null && on.certificates) this.drawCertificates(shown, views, positions);
     else this.certificates.hide();
     this.trails.update(shown, positions, on.trails, this.palette!);
+    this.ways.update(shown, positions, on.trails, chosen, this.palette!);
     this.drawAlarms(shown, positions);
+    this.drawChosen(shown, positions, chosen);
   }
 
   /** Shows a line from a held sphere to its goal; none for null. */
@@ -258,6 +194,20 @@ export class Overlays {
       this.certificates.between(shown, positions, first, second, this.colour);
     }
     this.certificates.end();
+  }
+
+  /** Draws a cube around each chosen body, and a line between two. */
+  private drawChosen(shown: Shown, positions: Float64Array, chosen: readonly number[]): void {
+    const { held } = this.palette!;
+    const radii = shown.radii();
+    const present = chosen.filter((place) => !Number.isNaN(positions[3 * place]!));
+    this.chosen.begin(12 * present.length + 1);
+    for (const place of present) {
+      const corner = (side: number) => [0, 1, 2].map((axis) => positions[3 * place + axis]! + side * 1.15 * radii[place]!);
+      this.chosen.box(corner(-1), corner(1), held);
+    }
+    if (present.length === 2) this.chosen.between(shown, positions, present[0]!, present[1]!, held);
+    this.chosen.end();
   }
 
   /** Draws lines between pairs that may be too near to each other. */

@@ -4,8 +4,8 @@ import type { Simulation } from "../simulation.ts";
 import { calmQuery } from "../theme.ts";
 import { drawAsLoop, drawDiscs, looksUntil } from "./discs_picture.ts";
 import { button, copyButton, make, slider } from "./elements.ts";
-import { FlatPicture } from "./flat_picture.ts";
-import { followInks } from "./inks.ts";
+import { FlatPicture } from "../flat_picture.ts";
+import { followInks } from "../inks.ts";
 import { newSimulation, type WholeRun, wholeRun } from "./whole_run.ts";
 
 /** Simulated seconds in a second. */
