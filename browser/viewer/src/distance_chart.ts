@@ -37,6 +37,8 @@ export interface ChartMarks {
 /** How lengths and times are written. */
 export interface ChartWords {
   length(length: number): string;
+  /** The unit in which lengths up to one are round; 1 without it. */
+  unitOf?(longest: number): number;
   time(time: number): string;
 }
 
@@ -73,7 +75,8 @@ export class DistanceChart {
     picture.extent = { left: from - margins.left * alongX, right: Math.max(to, from + 1e-9) + margins.right * alongX,
                        bottom: -margins.bottom * alongY, top: highest + margins.top * alongY };
     picture.begin();
-    const step = roundStep(highest / 5);
+    const unit = words.unitOf?.(highest) ?? 1;
+    const step = unit * roundStep(highest / unit / 5);
     for (let k = 0; k * step <= highest; ++k) {
       picture.line([[from, k * step], [to, k * step]], { stroke: "frame", width: 1 });
       picture.text(from - 6 * alongX, k * step - 4 * alongY, words.length(k * step), { fill: "quiet", align: "right" });

@@ -240,7 +240,6 @@ describe("other scenes", () => {
     await arrived(page, 0.5);
     assert.deepEqual(await chosen(page), [3, 17]);
     await page.waitForFunction(() => document.querySelector("#pair-least").textContent.startsWith("closest so far"));
-    assert.match(await page.textContent("#pair-now"), /^Distance of the centres now: [\d.]+, certainly [\d.]+ to [\d.]+$/);
     assert.match(await copied(page), /&pair=3,17$/);
     const least = await page.evaluate(() => {
       const [, text] = /at (.*) s/.exec(document.querySelector("#pair-least").textContent);
@@ -252,6 +251,12 @@ describe("other scenes", () => {
     assert.deepEqual(await chosen(page), [3, 17], "a restart keeps it");
     await page.keyboard.press("3");
     assert.deepEqual(await chosen(page), [], "another scene does not");
+  });
+
+  test("what is certain of a distance is told", async () => {
+    const page = await inBrowser.open("#scene=paper1&bodies=60&t=0.5&pair=3,17");
+    await arrived(page, 0.5);
+    await page.waitForFunction(() => /^Distance of the centres now: [\d.]+, certainly [\d.]+ to [\d.]+$/.test(document.querySelector("#pair-now").textContent));
   });
 
   test("a wrong pair in a link is named", async () => {
