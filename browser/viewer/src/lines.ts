@@ -8,9 +8,11 @@ export class Lines {
   private points = new Float32Array(0);
   private colours = new Float32Array(0);
   private count = 0;
-  constructor(opacity: number) {
+  /** With `overAll` spheres do not hide them. */
+  constructor(opacity: number, overAll = false) {
     this.object = new LineSegments(new BufferGeometry(),
-      new LineBasicMaterial({ vertexColors: true, transparent: true, opacity, depthWrite: false }));
+      new LineBasicMaterial({ vertexColors: true, transparent: true, opacity, depthWrite: false, depthTest: !overAll }));
+    if (overAll) this.object.renderOrder = 3;
     this.object.frustumCulled = false;
     this.object.visible = false;
   }

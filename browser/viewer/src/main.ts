@@ -4,7 +4,7 @@ import { Color } from "three";
 import { along, bright, dark, type Palette, placeOfDuration, placesOfSizes, safeDurations } from "./colours.ts";
 import { Hand } from "./hand.ts";
 import { Hud, type Times } from "./hud.ts";
-import { Overlays } from "./overlays.ts";
+import { focusOn, Overlays } from "./overlays.ts";
 import { Legend } from "./legend.ts";
 import { type Link, linkOf, readLink } from "./link.ts";
 import { Pair } from "./pair.ts";
@@ -406,10 +406,13 @@ function draw(seconds: number): void {
   reported = [];
   const { clientHeight } = stage.canvas;
   const pixels = (clientHeight * Math.min(devicePixelRatio, 2)) / (2 * Math.tan((stage.camera.fov * Math.PI) / 360));
-  overlays.update(shown, views, positions, settings, pair.places, seconds, calmQuery.matches, pixels);
+  // What the engine knows of the chosen is not hidden by others.
+  const chosen = pair.places;
+  const focus = chosen.length > 0 && views !== null && (on.bounds || on.boxes || on.certificates) ? focusOn(shown, views, chosen) : null;
+  overlays.update(shown, views, positions, settings, chosen, focus, seconds, calmQuery.matches, pixels);
   const safe = colouring === "safe" ? safeDurations(shown, views!) : null;
   const { time } = shown.view;
-  stage.draw(positions, radii, shown.shapes(), shown.orientations(), (body) => {
+  stage.draw(positions, radii, shown.shapes(), shown.orientations(), focus, (body) => {
     if (body === hand.body) return colour.copy(palette.held);
     if (safe !== null) along(palette.times, placeOfDuration(safe[body]!), colour);
     else if (on.evidence && colouring === "size") colour.copy(palette.grey);

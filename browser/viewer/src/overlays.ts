@@ -20,12 +20,12 @@ export class Overlays {
   private readonly bounds = new Spheres(0.4);
   private readonly boxes = new Lines(0.45);
   private readonly cells = new Lines(0.35);
-  private readonly certificates = new Lines(0.9);
+  private readonly certificates = new Lines(0.9, true);
   private readonly alarms = new Lines(0.95);
   private readonly pull = new Lines(0.9);
   private readonly trails: Trails;
   private readonly ways: Ways;
-  private readonly chosen = new Lines(1);
+  private readonly chosen = new Lines(1, true);
   private readonly zoneMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
   private zone: Mesh | null = null;
   private zoneFlash = 0;
@@ -85,9 +85,12 @@ export class Overlays {
     }
   }
 
-  /** `views` is set if a visible overlay needs it; `chosen` are places of the chosen bodies. */
+  /**
+   * `views` is set if a visible overlay needs it; `chosen` are places of the chosen bodies, and `focus` has them and their
+   * partners if bounds, boxes and certificates of these alone are drawn.
+   */
   update(shown: Shown, views: readonly BodyView[] | null, positions: Float64Array, settings: Settings, chosen: readonly number[],
-         seconds: number, calm: boolean, pixels: number): void {
+         focus: ReadonlySet<number> | null, seconds: number, calm: boolean, pixels: number): void {
     const on = settings.overlays;
     this.sparks.fade(on.contacts ? seconds : Infinity, calm, pixels);
     this.missed.update(shown.time, on.evidence, this.palette!.missed);
@@ -95,13 +98,13 @@ export class Overlays {
     this.zoneMaterial.opacity = 0.16 + (calm ? 0.12 : 0.45) * this.zoneFlash;
     if (views !== null && on.probes) this.followProbes(views, seconds, calm);
     else this.glow.fill(0);
-    if (views !== null && on.bounds) this.drawBounds(shown, views);
+    if (views !== null && on.bounds) this.drawBounds(shown, views, focus);
     else this.bounds.object.visible = false;
-    if (views !== null && on.boxes) this.drawBoxes(shown, views);
+    if (views !== null && on.boxes) this.drawBoxes(shown, views, focus);
     else this.boxes.hide();
     if (on.cells) this.drawCells(shown);
     else this.cells.hide();
-    if (views !== null && on.certificates) this.drawCertificates(shown, views, positions);
+    if (views !== null && on.certificates) this.drawCertificates(shown, views, positions, focus === null ? null : chosen);
     else this.certificates.hide();
     this.trails.update(shown, positions, on.trails, this.palette!);
     this.ways.update(shown, positions, on.trails, chosen, this.palette!);
@@ -149,11 +152,11 @@ export class Overlays {
     }
   }
 
-  private drawBounds(shown: Shown, views: readonly BodyView[]): void {
+  private drawBounds(shown: Shown, views: readonly BodyView[], focus: ReadonlySet<number> | null): void {
     this.bounds.resize(views.length);
     const centre = new Float64Array(3);
     for (let k = 0; k < views.length; ++k) {
-      if (!views[k]!.enabled) {
+      if (!views[k]!.enabled || focus?.has(k) === false) {
         this.bounds.hide(k);
         continue;
       }
@@ -164,9 +167,9 @@ export class Overlays {
     this.bounds.done();
   }
 
-  private drawBoxes(shown: Shown, views: readonly BodyView[]): void {
+  private drawBoxes(shown: Shown, views: readonly BodyView[], focus: ReadonlySet<number> | null): void {
     this.boxes.begin(12 * views.length);
-    for (const { box, enabled } of views) if (enabled) this.boxes.box(...inSight(shown, box.lower, box.upper), this.palette!.line);
+    for (const [k, { box, enabled }] of views.entries()) if (enabled && focus?.has(k) !== false) this.boxes.box(...inSight(shown, box.lower, box.upper), this.palette!.line);
     this.boxes.end();
   }
 
@@ -181,16 +184,13 @@ export class Overlays {
     this.cells.end();
   }
 
-  /** Draws lines between pairs, coloured by the time until their certificates fail. */
-  private drawCertificates(shown: Shown, views: readonly BodyView[], positions: Float64Array): void {
-    const certificates = shown.view.certificates();
-    const places = new Map(views.map((view, k) => [view.id, k]));
-    this.certificates.begin(certificates.length / 3);
-    for (let at = 0; at < certificates.length; at += 3) {
-      const first = places.get(certificates[at]!);
-      const second = places.get(certificates[at + 1]!);
-      if (first === undefined || second === undefined) continue;
-      along(this.palette!.times, placeOfDuration(certificates[at + 2]! - shown.view.time), this.colour);
+  /** Draws lines between pairs, coloured by the time until their certificates fail; with `of` those of these bodies alone. */
+  private drawCertificates(shown: Shown, views: readonly BodyView[], positions: Float64Array, of: readonly number[] | null): void {
+    const certificates = certificatesOf(shown, views);
+    this.certificates.begin(certificates.length);
+    for (const { first, second, until } of certificates) {
+      if (of?.some((place) => place === first || place === second) === false) continue;
+      along(this.palette!.times, placeOfDuration(until - shown.view.time), this.colour);
       this.certificates.between(shown, positions, first, second, this.colour);
     }
     this.certificates.end();
@@ -219,6 +219,23 @@ export class Overlays {
                           distance === shown.alarms?.alarm ? this.palette!.missed : this.palette!.contact);
     this.alarms.end();
   }
+}
+
+/** Certificates, by places of the two bodies in the picture, and when each fails. */
+function certificatesOf({ view }: Shown, views: readonly BodyView[]): { first: number; second: number; until: number }[] {
+  const numbers = view.certificates();
+  const places = new Map(views.map(({ id }, k) => [id, k]));
+  return Array.from({ length: numbers.length / 3 }, (_, k) =>
+    ({ first: places.get(numbers[3 * k]!) ?? -1, second: places.get(numbers[3 * k + 1]!) ?? -1, until: numbers[3 * k + 2]! }))
+    .filter(({ first, second }) => first >= 0 && second >= 0);
+}
+
+/** Returns places of the chosen bodies, and of those that they have a certificate with. */
+export function focusOn(shown: Shown, views: readonly BodyView[], chosen: readonly number[]): ReadonlySet<number> {
+  const focus = new Set(chosen);
+  for (const { first, second } of certificatesOf(shown, views))
+    if (chosen.includes(first) || chosen.includes(second)) focus.add(first).add(second);
+  return focus;
 }
 
 /** Returns the corners of a box, moved so that its centre is in the visible period. */

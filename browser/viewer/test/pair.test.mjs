@@ -259,6 +259,31 @@ describe("other scenes", () => {
     await page.waitForFunction(() => /^Distance of the centres now: [\d.]+, certainly [\d.]+ to [\d.]+$/.test(document.querySelector("#pair-now").textContent));
   });
 
+  test("what the engine knows is drawn near the chosen alone, with all others as shadows", async () => {
+    const drawn = (page) => page.evaluate(() => {
+      const { stage, simulation } = window.kinesphereViewer;
+      const count = (spheres) => {
+        const { ball } = spheres.object.visible ? spheres.object.geometry.attributes : {};
+        return ball === undefined ? 0 : Array.from({ length: ball.count }, (_, k) => ball.getW(k)).filter((radius) => radius > 0).length;
+      };
+      return { bodies: count(stage.bodies), ghosts: count(stage.ghosts), all: simulation.radii().length };
+    });
+    const page = await inBrowser.open("#scene=gas&bodies=300&t=0.5&show=certificates&pair=3,17");
+    await arrived(page, 0.5);
+    await isDrawn(page);
+    const { bodies, ghosts, all } = await drawn(page);
+    assert.ok(bodies >= 2 && bodies < 60, `${bodies}`);
+    assert.equal(bodies + ghosts, all);
+    for (const change of [() => { window.kinesphereViewer.settings.overlays.certificates = false; }, () => {
+      window.kinesphereViewer.settings.overlays.certificates = true;
+      window.kinesphereViewer.pair.choose([]);
+    }]) {
+      await page.evaluate(change);
+      await isDrawn(page);
+      assert.deepEqual(await drawn(page), { bodies: all, ghosts: 0, all });
+    }
+  });
+
   test("a wrong pair in a link is named", async () => {
     for (const [link, said] of [
       ["pair=3", /The link's pair must be two different numbers of bodies, but is 3/],
