@@ -102,8 +102,10 @@ export class DistanceChart {
       picture.line([[now.time, 0], [now.time, top]], { stroke: "quiet", width: 1 });
       picture.ring(now.time, now.distance, 3.5, { fill: "ink" });
     }
+    // On the side where the curve is farther away.
+    const isOnLeft = least !== null && least.time > (from + to) / 2;
     for (const { distance, words: name } of lines)
-      picture.text(to, distance + 5 * alongY, name, { fill: "quiet", stroke: "paper", align: "right" });
+      picture.text(isOnLeft ? from : to, distance + 5 * alongY, name, { fill: "quiet", align: isOnLeft ? "left" : "right" });
     if (least !== null) picture.ring(least.time, least.distance, 6, { stroke: "contact", width: 2.5 });
   }
 }

@@ -236,6 +236,8 @@ test("the pages have complained of nothing, and asked nobody else", () => {
 test("it runs from a folder of files, too", async () => {
   const page = await inBrowser.open(pathToFileURL(join(site, "index.html")).href);
   await page.waitForFunction(() => window.kinesphereLive.discs.simulation.time > 0.02);
+  assert.equal(await page.getByRole("link", { name: "the viewer" }).count(), 0, "it would not run there");
+  assert.match(await page.textContent(".hero-legend"), /the viewer, where a server has these files/);
 });
 
 test("the reference of C++ is dark as the system is, from a folder of files, too, where nothing can search", async () => {

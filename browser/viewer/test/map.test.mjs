@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 
-import { browserForTests } from "./page.mjs";
+import { browserForTests, seriousFlaws } from "./page.mjs";
 import { at, coloursAt, difference, isDrawn, isNoMissingServer, namedColour, number, texts, Watch } from "./watch.mjs";
 
 const inBrowser = browserForTests({
@@ -189,6 +189,10 @@ describe("a chosen pair", () => {
       return { inked: data.filter((value, k) => k % 4 === 3 && value > 0).length / (width * height), label: document.querySelector("#details-chart").getAttribute("aria-label") };
     });
     assert.ok(seen.inked > 0.01, `${seen.inked}`);
+    for (const theme of ["dark", "bright"]) {
+      await page.evaluate((theme) => void (document.documentElement.dataset.theme = theme), theme);
+      assert.deepEqual(await seriousFlaws(page), [], theme);
+    }
     assert.match(seen.label, /^Distance of .* over time; now 10\d, certainly .*; closest so far 102 at 5\.0 s; expected CPA/);
   });
 
