@@ -180,7 +180,10 @@ function fileName(): string | null {
 function follow(link: Link): void {
   const { settings: chosen, overlays: on, time, camera, pair: ids, file } = link;
   awaited = file === null || file === fileName() ? null : link;
-  if (awaited !== null) return hud.tell(`The link leads to a moment of ${file!}. Drop this file on the page to see it.`);
+  if (awaited !== null) {
+    if (!leadsToServed() || isServed) hud.tell(`The link leads to a moment of ${file!}. Drop this file on the page to see it.`);
+    return;
+  }
   if (chosen.scene !== undefined) {
     settings.scene = chosen.scene;
     chooseScene();
@@ -200,6 +203,8 @@ function follow(link: Link): void {
 }
 
 const openedMark = "opened";
+/** True if the address leads to a file of the page's server. */
+const leadsToServed = (): boolean => location.hash.slice(1).split("&")[0] === openedMark;
 
 function followAddress(): void {
   const text = location.hash.slice(1).replace(new RegExp(`^${openedMark}(&|$)`), "");
@@ -325,6 +330,7 @@ async function openServed(): Promise<void> {
     if (files.recording !== null) openRecording(files.recording, await (await served("recording")).arrayBuffer());
     if (files.tracks === null) return;
     openTracks(await (await served("tracks.json")).json() as TrackTable);
+    if (awaited !== null) follow(awaited);
   } catch (error) {
     sayError(error);
   }
@@ -491,4 +497,4 @@ chooseScene();
 requestAnimationFrame(frame);
 followAddress();
 addEventListener("hashchange", followAddress);
-if (location.hash.slice(1).split("&")[0] === openedMark) void openServed();
+if (leadsToServed()) void openServed();
