@@ -107,6 +107,8 @@ for (const options of [desktop, phone])
     const [later, stillLoop] = await pictures();
     assert.equal(loop, stillLoop);
     assert.notEqual(all, later);
+    await discs(page, (demo) => demo.goTo(1.018));
+    assert.notEqual((await pictures())[1], loop, "after the next look");
     const boxes = await page.evaluate(() => Array.from(document.querySelectorAll(".live-views figure"), (each) => each.getBoundingClientRect().toJSON()));
     assert.ok(boxes.every(({ left, right }) => left >= 0 && right <= options.viewport.width), JSON.stringify(boxes));
     assert.equal((await state(await inBrowser.open(address, options))).moment.view, "both");
