@@ -26,7 +26,7 @@ node_tests() {
 pages() {
   cd browser/viewer/test
   node --test viewer.test.mjs served.test.mjs dragging.test.mjs pictures.test.mjs map.test.mjs \
-    fields.test.mjs link.test.mjs
+    fields.test.mjs link.test.mjs pair.test.mjs
 }
 export KINESPHERE_SITE=$PWD/build/browser/site
 site() {

@@ -1,5 +1,6 @@
-// Grabbing a sphere with the pointer and throwing it.
+// Grabbing a sphere with the pointer and throwing it, and clicking it.
 import { Plane, Raycaster, Vector2, Vector3 } from "three";
+import type { Shown } from "./shown.ts";
 import type { Simulation } from "./simulation.ts";
 import type { Stage } from "./stage.ts";
 
@@ -7,6 +8,9 @@ import type { Stage } from "./stage.ts";
 const reach = 0.1;
 /** Pixels beside a sphere at which it can still be grabbed. */
 const slack = 12;
+/** Pixels and milliseconds within which a press is a click, and pulls nothing. */
+const clickWay = 5;
+const clickTime = 250;
 
 export class Hand {
   /** The held body. */
@@ -17,13 +21,21 @@ export class Hand {
   /** Vector from the place of the pointer on the plane to the centre of the sphere. */
   private readonly offset = new Vector3();
   private pointerId = -1;
+  /** The press of the pointer, if it may still be a click. */
+  private press: { pointerId: number; x: number; y: number; time: number } | null = null;
 
-  /** `simulation` returns null while nothing can be pushed. */
-  constructor(private readonly stage: Stage, private readonly simulation: () => Simulation | null) {
+  /** `simulation` returns null while nothing can be pushed. `clicked` gets the body at which there was a click. */
+  constructor(private readonly stage: Stage, private readonly shown: () => Shown, private readonly simulation: () => Simulation | null,
+              clicked: (place: number) => void) {
     const { canvas } = stage;
     // Before the camera's controls get the event.
     canvas.addEventListener("pointerdown", (event) => this.grab(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.follow(event));
+    canvas.addEventListener("pointerup", (event) => {
+      if (this.press?.pointerId !== event.pointerId || this.hasPassed) return;
+      const body = this.body ?? this.bodyAt(event.clientX, event.clientY);
+      if (body !== null) clicked(body);
+    }, { capture: true });
     for (const name of ["pointerup", "pointercancel", "lostpointercapture"] as const)
       canvas.addEventListener(name, (event) => {
         if (event.pointerId === this.pointerId) this.release();
@@ -34,7 +46,7 @@ export class Hand {
   pull(speed: number): void {
     const simulation = this.simulation();
     const goal = this.goal();
-    if (this.body === null || simulation === null || goal === null) return;
+    if (this.body === null || simulation === null || goal === null || !this.hasPassed) return;
     const positions = simulation.positions();
     const velocity = new Vector3();
     for (let axis = 0; axis < 3; ++axis)
@@ -64,13 +76,12 @@ export class Hand {
 
   /** Returns the body that is seen at a place of the page, if there is one. */
   bodyAt(x: number, y: number): number | null {
-    const simulation = this.simulation();
-    if (simulation === null) return null;
+    const shown = this.shown();
     this.aim(x, y);
     const { origin, direction } = this.ray.ray;
-    const positions = simulation.positions();
-    const radii = simulation.radii();
-    const shapes = simulation.shapes();
+    const positions = shown.positions();
+    const radii = shown.radii();
+    const shapes = shown.shapes();
     const { camera, canvas } = this.stage;
     const slackPerDistance = (2 * slack * Math.tan((camera.fov * Math.PI) / 360)) / canvas.clientHeight;
     const middle = new Vector3();
@@ -101,8 +112,9 @@ export class Hand {
 
   private grab(event: PointerEvent): void {
     if (this.body !== null || event.button !== 0) return;
-    const body = this.bodyAt(event.clientX, event.clientY);
+    this.press = event.isPrimary ? { pointerId: event.pointerId, x: event.clientX, y: event.clientY, time: event.timeStamp } : null;
     const simulation = this.simulation();
+    const body = simulation === null ? null : this.bodyAt(event.clientX, event.clientY);
     if (body === null || simulation === null) return;
     const middle = new Vector3().fromArray(simulation.positions(), 3 * body);
     this.plane.setFromNormalAndCoplanarPoint(this.stage.camera.getWorldDirection(new Vector3()), middle);
@@ -116,7 +128,14 @@ export class Hand {
     this.stage.canvas.setPointerCapture(event.pointerId);
   }
 
+  /** True once the press is no click any more. */
+  private get hasPassed(): boolean {
+    if (this.press !== null && performance.now() - this.press.time > clickTime) this.press = null;
+    return this.press === null;
+  }
+
   private follow(event: PointerEvent): void {
+    if (this.press !== null && Math.hypot(event.clientX - this.press.x, event.clientY - this.press.y) > clickWay) this.press = null;
     if (event.pointerId === this.pointerId) this.aim(event.clientX, event.clientY);
   }
 

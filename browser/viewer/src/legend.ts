@@ -31,6 +31,7 @@ function entries(shown: Shown, { overlays: on, colouring }: Settings, palette: P
   if ((on.contacts || on.evidence) && countsMissed(shown)) found.push(drawn("crossedRing", palette.missed, "contact that 60 Hz misses"));
   if (shown.alarms !== null) found.push(line(palette.contact, "warning"), line(palette.missed, "alarm"));
   if (on.trails && shown.trails.length > 0) found.push(line(palette.trail, "trail"), drawn("square", palette.look, "where 60 Hz looks"));
+  if (on.trails && shown.ways.length > 0) found.push(line(palette.trail, "way so far"));
   if (on.probes) found.push(dot(palette.probe, "asked just now"));
   if (on.bounds) found.push(dot(palette.zone, "bound"));
   if (on.certificates) found.push({ kind: "row", colours: palette.times, words: "certificate for 1 ms to 1 s" });

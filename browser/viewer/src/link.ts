@@ -1,5 +1,5 @@
-// The address of a moment: scene, seed, time, camera and switches. Runs are equal to the last bit, so whoever opens it
-// sees the same.
+// The address of a moment: scene, seed, time, camera, switches and chosen pair. Runs are equal to the last bit, so whoever opens it
+// sees the same. Of a file that was opened it has the name; the file has to be there, too.
 import { scenes } from "./scenes/list.ts";
 import { type Colouring, colourings, ranges, type Settings } from "./settings.ts";
 import { type Theme, themes } from "./theme.ts";
@@ -13,19 +13,34 @@ export interface Link {
   time: number | null;
   /** The place of the camera, and the place that it looks at. */
   camera: readonly number[] | null;
+  /** Ids of the chosen pair. */
+  pair: readonly [number, number] | null;
+  /** Name of the file that the scene is from. */
+  file: string | null;
 }
 
-export function linkOf(settings: Settings, time: number, camera: readonly number[]): string {
+/** What a link says beside the settings. */
+export interface Moment {
+  time: number;
+  camera: readonly number[];
+  /** Ids of the chosen bodies. */
+  chosen: readonly number[];
+  file: string | null;
+}
+
+export function linkOf(settings: Settings, { time, camera, chosen, file }: Moment): string {
   const { scene, bodies, seed, speed, colouring, theme, overlays } = settings;
   const on = Object.entries(overlays).filter(([, isOn]) => isOn).map(([name]) => name);
-  const parts = { scene, bodies, seed, t: time.toFixed(6), speed, colour: colouring, theme, show: on.join(","),
-                  camera: camera.map((place) => Number(place.toPrecision(6))).join(",") };
+  const parts = { ...(file === null ? { scene, bodies, seed } : { file: encodeURIComponent(file) }),
+                  t: time.toFixed(6), speed, colour: colouring, theme, show: on.join(","),
+                  camera: camera.map((place) => Number(place.toPrecision(6))).join(","),
+                  ...(chosen.length === 2 && { pair: chosen.join(",") }) };
   return Object.entries(parts).map(([name, value]) => `${name}=${value}`).join("&");
 }
 
 /** Reads the part of an address behind its #. Throws an error that names what is wrong. */
 export function readLink(text: string): Link {
-  const link: Link = { settings: {}, overlays: null, time: null, camera: null };
+  const link: Link = { settings: {}, overlays: null, time: null, camera: null, pair: null, file: null };
   for (const [name, value] of new URLSearchParams(text)) {
     const read = readers[name];
     if (read === undefined) throw new RangeError(`The link has an unknown part: ${name}`);
@@ -39,7 +54,7 @@ const readers: Readonly<Record<string, (link: Link, value: string) => void>> = {
   bodies: (link, value) => { link.settings.bodies = whole("bodies", value, ...ranges.bodies); },
   seed: (link, value) => { link.settings.seed = whole("seed", value, ...ranges.seed); },
   speed: (link, value) => { link.settings.speed = number("speed", value, ...ranges.speed); },
-  t: (link, value) => { link.time = number("t", value, 0, 1e6); },
+  t: (link, value) => { link.time = number("t", value, -1e12, 1e12); },
   colour: (link, value) => { link.settings.colouring = oneOf<Colouring>("colour", value, colourings); },
   theme: (link, value) => { link.settings.theme = oneOf<Theme>("theme", value, themes); },
   show: (link, value) => {
@@ -49,6 +64,13 @@ const readers: Readonly<Record<string, (link: Link, value: string) => void>> = {
     link.camera = value.split(",").map((part) => number("camera", part, -1e9, 1e9));
     if (link.camera.length !== 6) throw new RangeError(`The link's camera must be six numbers, but is ${value}`);
   },
+  pair: (link, value) => {
+    const [first, second, ...more] = value.split(",").map((part) => whole("pair", part, 0, 2 ** 31));
+    if (first === undefined || second === undefined || first === second || more.length > 0)
+      throw new RangeError(`The link's pair must be two different numbers of bodies, but is ${value}`);
+    link.pair = [first, second];
+  },
+  file: (link, value) => { link.file = value; },
 };
 const overlayNames: readonly (keyof Settings["overlays"])[] =
   ["contacts", "evidence", "trails", "probes", "bounds", "boxes", "cells", "certificates", "busiest"];

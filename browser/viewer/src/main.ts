@@ -4,9 +4,10 @@ import { Color } from "three";
 import { along, bright, dark, type Palette, placeOfDuration, placesOfSizes, safeDurations } from "./colours.ts";
 import { Hand } from "./hand.ts";
 import { Hud, type Times } from "./hud.ts";
-import { Overlays } from "./overlays.ts";
+import { focusOn, Overlays } from "./overlays.ts";
 import { Legend } from "./legend.ts";
 import { type Link, linkOf, readLink } from "./link.ts";
+import { Pair } from "./pair.ts";
 import { makePanel } from "./panel.ts";
 import { Recording } from "./recording.ts";
 import { sceneAbout, sceneKeys, scenes, setUp } from "./scenes/list.ts";
@@ -49,12 +50,19 @@ let shown: Shown;
 let sizePlaces: Float64Array = new Float64Array(0);
 let reported: ReportedEvent[] = [];
 const times: Times = { engine: 0, drawing: 0, frame: 0 };
-const hand = new Hand(stage, () => (shown instanceof Simulation && shown.canBePushed ? shown : null));
+const hand = new Hand(stage, () => shown, () => (shown instanceof Simulation && shown.canBePushed ? shown : null),
+  (place) => pair.toggle(shown.idOf(place)));
+const pair = new Pair((time) => seek(time), () => {
+  document.body.classList.toggle("has-pair", pair.ids.length > 0);
+  leaveFree();
+});
 /** The time that a link or the timeline asks for, until it is reached. */
 let goal: number | null = null;
 const timeline = new Timeline((time) => seek(time));
 /** The tracks that the server was given, or that were dropped. */
 let opened: TrackTable | null = null;
+/** A link to a moment of a file that is not open yet. */
+let awaited: Link | null = null;
 
 function show(next: Shown): void {
   hand.release();
@@ -65,6 +73,7 @@ function show(next: Shown): void {
   reported = [];
   stage.show(shown);
   overlays.show(shown);
+  pair.show(shown);
   hud.show(shown);
   hud.update(shown, times, settings.overlays.busiest);
   legend.update(shown, settings, palette);
@@ -75,8 +84,8 @@ function show(next: Shown): void {
 /** On a phone the picture is between the numbers and the legend. */
 function leaveFree(): void {
   const box = (id: string) => element(id).getBoundingClientRect();
-  // The legend may be empty, and then has no place.
-  const legendBox = element("legend").childElementCount > 0 ? box("legend") : null;
+  // The legend may be empty, and then has no place, and the chosen pair may have it.
+  const legendBox = pair.ids.length > 0 ? box("pair") : element("legend").childElementCount > 0 ? box("legend") : null;
   if (matchMedia("(max-width: 720px) and (orientation: portrait)").matches)
     stage.leaveFree({ left: 0, top: box("hud").bottom, right: 0, bottom: innerHeight - (legendBox ?? box("transport")).top });
   else if (matchMedia("(max-height: 500px) and (orientation: landscape)").matches)
@@ -109,6 +118,7 @@ function restart(): void {
 function chooseScene(): void {
   const { bodies, speed, evidence = false } = sceneAbout(settings.scene);
   speedOfScene = null;
+  pair.choose([]);
   settings.bodies = bodies;
   settings.speed = speed;
   settings.overlays.evidence = evidence;
@@ -121,6 +131,7 @@ function repaint(): void {
   palette = isDark ? dark : bright;
   stage.paint(palette);
   overlays.paint(palette, isDark);
+  pair.repaint();
 }
 
 function sayError(error: unknown): void {
@@ -150,11 +161,29 @@ function seek(time: number): void {
   setPlaying(false);
   hand.release();
   goal = time;
-  if (time < shown.time) attempt(() => shown.back(shown.time - time));
+  if (time < shown.time) goBack(() => shown.rewind(time));
+}
+
+/** Throws are not repeated on the way back. */
+function goBack(action: () => void): void {
+  attempt(action);
+  if (shown instanceof Simulation && shown.wasPushed) pair.forgetFuture();
+}
+
+/** The name of the file that is shown; null for a scene. */
+function fileName(): string | null {
+  if (shown instanceof Recording) return shown.title;
+  return settings.scene === "crowd" ? opened?.name ?? null : null;
 }
 
 /** Shows what a link says; a link that says nothing changes nothing. */
-function follow({ settings: chosen, overlays: on, time, camera }: Link): void {
+function follow(link: Link): void {
+  const { settings: chosen, overlays: on, time, camera, pair: ids, file } = link;
+  awaited = file === null || file === fileName() ? null : link;
+  if (awaited !== null) {
+    if (!leadsToServed() || isServed) hud.tell(`The link leads to a moment of ${file!}. Drop this file on the page to see it.`);
+    return;
+  }
   if (chosen.scene !== undefined) {
     settings.scene = chosen.scene;
     chooseScene();
@@ -163,28 +192,51 @@ function follow({ settings: chosen, overlays: on, time, camera }: Link): void {
   if (on !== null) for (const name of Object.keys(settings.overlays) as (keyof typeof settings.overlays)[]) settings.overlays[name] = on.includes(name);
   if (chosen.bodies !== undefined || chosen.seed !== undefined) restart();
   repaint();
+  if (ids !== null) {
+    const missing = ids.find((id) => shown.placeOf(id) === null);
+    if (missing !== undefined) throw new RangeError(`The link's pair has a body ${missing}, which is not here`);
+    pair.choose(ids);
+  }
   if (camera !== null) stage.lookAs(camera);
   if (time !== null) seek(time);
   refreshPanel();
 }
 
+const openedMark = "opened";
+/** True if the address leads to a file of the page's server. */
+const leadsToServed = (): boolean => location.hash.slice(1).split("&")[0] === openedMark;
+
 function followAddress(): void {
-  const text = location.hash.slice(1);
-  if (text === "" || text === "opened") return;
+  const text = location.hash.slice(1).replace(new RegExp(`^${openedMark}(&|$)`), "");
+  if (text !== "") followIfRight(() => readLink(text));
+}
+
+/** Follows a link, or says what is wrong with it. */
+function followIfRight(link: () => Link): void {
   try {
-    follow(readLink(text));
+    follow(link());
   } catch (error) {
     sayError(error);
   }
 }
 
+/** Goes on with a link that led to a file which is shown now. */
+function followAwaited(): void {
+  const link = awaited;
+  if (link !== null && link.file === fileName()) followIfRight(() => link);
+}
+
 async function copyLink(): Promise<void> {
-  if (!(shown instanceof Simulation)) return hud.say("A recording has no link: it is on this machine alone.");
   const address = new URL(location.href);
-  address.hash = linkOf(settings, shown.time, stage.cameraPlace);
+  const file = fileName();
+  const link = linkOf(settings, { time: shown.time, camera: stage.cameraPlace, chosen: pair.ids, file });
+  address.hash = file !== null && isServed ? `${openedMark}&${link}` : link;
   try {
     await navigator.clipboard.writeText(address.href);
-    hud.tell(shown.wasPushed ? "Copied. The link leads to this time of the scene as it would be without your throws." : "Copied: the link leads to this moment.");
+    hud.tell(shown instanceof Simulation && shown.wasPushed ? "Copied. The link leads to this time of the scene as it would be without your throws."
+      : file === null ? "Copied: the link leads to this moment."
+      : isServed ? "Copied: the link leads to this moment as long as this page is served."
+      : `Copied: the link leads to this moment where ${file} is dropped on the page.`);
   } catch {
     hud.tell(address.href);
   }
@@ -201,13 +253,17 @@ function savePicture(): void {
 const next = () => {
   goal = null;
   setPlaying(false);
-  attempt(() => shown.nextEvent());
+  attempt(() => {
+    const events = shown.nextEvent();
+    pair.follow(events);
+    return events;
+  });
   hud.update(shown, times, settings.overlays.busiest);
 };
 const back = () => {
   goal = null;
   hand.release();
-  attempt(() => shown.back(1));
+  goBack(() => shown.back(1));
   hud.update(shown, times, settings.overlays.busiest);
 };
 
@@ -216,13 +272,16 @@ const recordingMark = "Kinerc\r\n";
 
 function openRecording(name: string, bytes: ArrayBuffer): void {
   try {
-    show(new Recording(name, new Uint8Array(bytes)));
+    const recording = new Recording(name, new Uint8Array(bytes));
+    pair.choose([]);
+    show(recording);
     hud.hideMessage();
     // A scene may be in slow motion; nothing is known of a recording.
     speedOfScene ??= settings.speed;
     settings.speed = 1;
     refreshPanel();
     setPlaying(true);
+    followAwaited();
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
     hud.say(error instanceof KinesphereError ? `${name} cannot be shown. ${message}` : message);
@@ -236,10 +295,12 @@ function openTracks(table: TrackTable): void {
   chooseScene();
   settings.speed = 1;
   refreshPanel();
+  followAwaited();
 }
 
 async function openFile(file: File | undefined): Promise<void> {
   if (file === undefined) return;
+  isServed = false;
   const bytes = await file.arrayBuffer();
   const begin = String.fromCharCode(...new Uint8Array(bytes.slice(0, recordingMark.length)));
   if (begin === recordingMark) return openRecording(file.name, bytes);
@@ -253,7 +314,10 @@ async function openFile(file: File | undefined): Promise<void> {
   openTracks(table);
 }
 
-/** Opens the files that `kinesphere view FILE` serves with the page; its address ends in #opened then. */
+/** True once the page shows a file of its server. */
+let isServed = false;
+
+/** Opens the files that `kinesphere view FILE` serves with the page; its address has #opened then. */
 async function openServed(): Promise<void> {
   const served = async (name: string): Promise<Response> => {
     const response = await fetch(`opened/${name}`);
@@ -262,15 +326,17 @@ async function openServed(): Promise<void> {
   };
   try {
     const files = await (await served("files.json")).json() as { recording: string | null; tracks: string | null };
+    isServed = true;
     if (files.recording !== null) openRecording(files.recording, await (await served("recording")).arrayBuffer());
     if (files.tracks === null) return;
     openTracks(await (await served("tracks.json")).json() as TrackTable);
+    if (awaited !== null) follow(awaited);
   } catch (error) {
     sayError(error);
   }
 }
 
-const panel = makePanel(settings, { chooseScene, restart, repaint, openFile: () => element("file").click() });
+const panel = makePanel(settings, { chooseScene, restart, repaint, openFile: () => element("file").click(), chooseNearest: () => pair.chooseNearest() });
 const refreshPanel = () => panel.controllersRecursive().forEach((controller) => controller.updateDisplay());
 
 const cycle = <T>(values: readonly T[], value: T): T => values[(values.indexOf(value) + 1) % values.length]!;
@@ -283,6 +349,8 @@ const keys: Record<string, () => void> = {
   k: () => void copyLink(),
   p: savePicture,
   v: () => stage.lookFromFront(),
+  n: () => pair.chooseNearest(),
+  escape: () => pair.choose([]),
   c: () => void (settings.colouring = cycle<Colouring>(["size", "asked", "safe"], settings.colouring)),
   b: () => void (settings.overlays.bounds = !settings.overlays.bounds),
   l: () => void (settings.overlays.certificates = !settings.overlays.certificates),
@@ -344,10 +412,13 @@ function draw(seconds: number): void {
   reported = [];
   const { clientHeight } = stage.canvas;
   const pixels = (clientHeight * Math.min(devicePixelRatio, 2)) / (2 * Math.tan((stage.camera.fov * Math.PI) / 360));
-  overlays.update(shown, views, positions, settings, seconds, calmQuery.matches, pixels);
+  // What the engine knows of the chosen is not hidden by others.
+  const chosen = pair.places;
+  const focus = chosen.length > 0 && views !== null && (on.bounds || on.boxes || on.certificates) ? focusOn(shown, views, chosen) : null;
+  overlays.update(shown, views, positions, settings, chosen, focus, seconds, calmQuery.matches, pixels);
   const safe = colouring === "safe" ? safeDurations(shown, views!) : null;
   const { time } = shown.view;
-  stage.draw(positions, radii, shown.shapes(), shown.orientations(), (body) => {
+  stage.draw(positions, radii, shown.shapes(), shown.orientations(), focus, (body) => {
     if (body === hand.body) return colour.copy(palette.held);
     if (safe !== null) along(palette.times, placeOfDuration(safe[body]!), colour);
     else if (on.evidence && colouring === "size") colour.copy(palette.grey);
@@ -371,12 +442,12 @@ function frame(now: number): void {
   last = now;
   if (goal !== null) {
     const until = goal;
-    attempt(() => shown.run(until, performance.now() + engineBudget));
+    attempt(() => pair.run(shown, until, performance.now() + engineBudget));
     if (shown.time >= Math.min(until, shown.endTime)) goal = null;
   } else if (settings.playing) {
     attempt(() => {
       hand.pull(settings.speed);
-      return shown.run(shown.time + seconds * settings.speed, performance.now() + engineBudget);
+      return pair.run(shown, shown.time + seconds * settings.speed, performance.now() + engineBudget);
     });
     if (shown.time >= shown.endTime) setPlaying(false);
   } else if (hand.body !== null) {
@@ -390,6 +461,7 @@ function frame(now: number): void {
   if (now - hudTime < 200) return;
   hudTime = now;
   timeline.update(shown);
+  pair.update();
   hud.update(shown, times, settings.overlays.busiest);
   legend.update(shown, settings, palette);
 }
@@ -405,6 +477,7 @@ const viewer = {
   settings,
   stage,
   hand,
+  pair,
   times,
   setPlaying,
   seek,
@@ -424,4 +497,4 @@ chooseScene();
 requestAnimationFrame(frame);
 followAddress();
 addEventListener("hashchange", followAddress);
-if (location.hash === "#opened") void openServed();
+if (leadsToServed()) void openServed();

@@ -7,6 +7,10 @@ export interface Row {
 
 export const whole = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 
+/** Returns a number with at most so many digits that are not leading zeros. */
+export const digits = (value: number, most: number): string =>
+  value.toLocaleString("en", { maximumSignificantDigits: most, useGrouping: false });
+
 export class Numbers {
   constructor(private readonly list: HTMLElement) {}
 

@@ -1,87 +1,17 @@
 // The engine's knowledge and events, drawn over the spheres.
 import type { BodyView, Box } from "kinesphere";
-import {
-  BoxGeometry, BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, LineBasicMaterial, LineSegments,
-  Mesh, MeshBasicMaterial, type Scene,
-} from "three";
+import { BoxGeometry, Color, Mesh, MeshBasicMaterial, type Scene } from "three";
 import { along, type Palette, placeOfDuration } from "./colours.ts";
+import { Lines } from "./lines.ts";
 import type { Settings } from "./settings.ts";
 import { shiftInto, type Shown, type ReportedEvent, wrapInto } from "./shown.ts";
 import { MissedMarks, Sparks } from "./sparks.ts";
 import { Spheres } from "./spheres.ts";
 import { Trails } from "./trails.ts";
+import { Ways } from "./ways.ts";
 
 /** Life of the spark of a contact that a loop misses, of which there are few; that of others is 1. */
 const missedLife = 2;
-
-/** Lines that change in number from picture to picture. */
-class Lines {
-  readonly object: LineSegments<BufferGeometry, LineBasicMaterial>;
-  private points = new Float32Array(0);
-  private colours = new Float32Array(0);
-  private count = 0;
-  constructor(opacity: number) {
-    this.object = new LineSegments(new BufferGeometry(),
-      new LineBasicMaterial({ vertexColors: true, transparent: true, opacity, depthWrite: false }));
-    this.object.frustumCulled = false;
-    this.object.visible = false;
-  }
-  begin(lines: number): void {
-    this.count = 0;
-    if (6 * lines <= this.points.length) return;
-    this.points = new Float32Array(9 * lines);
-    this.colours = new Float32Array(9 * lines);
-    this.object.geometry.dispose();
-    this.object.geometry = new BufferGeometry()
-      .setAttribute("position", new BufferAttribute(this.points, 3).setUsage(DynamicDrawUsage))
-      .setAttribute("color", new BufferAttribute(this.colours, 3).setUsage(DynamicDrawUsage));
-  }
-  point(x: number, y: number, z: number, colour: Color): void {
-    const at = 3 * this.count++;
-    this.points[at] = x;
-    this.points[at + 1] = y;
-    this.points[at + 2] = z;
-    this.colours[at] = colour.r;
-    this.colours[at + 1] = colour.g;
-    this.colours[at + 2] = colour.b;
-  }
-  /** Adds a line from one body to the other or, in periodic space, to its nearest image. */
-  between({ box, periodic }: Shown, positions: Float64Array, first: number, second: number, colour: Color): void {
-    const from = positions.subarray(3 * first, 3 * first + 3);
-    const to = positions.slice(3 * second, 3 * second + 3);
-    for (let axis = 0; box !== null && axis < 3; ++axis) {
-      if (!periodic[axis]) continue;
-      const size = box.upper[axis]! - box.lower[axis]!;
-      to[axis]! -= size * Math.round((to[axis]! - from[axis]!) / size);
-    }
-    this.point(from[0]!, from[1]!, from[2]!, colour);
-    this.point(to[0]!, to[1]!, to[2]!, colour);
-  }
-  /** The twelve edges of a box. */
-  box(lower: ArrayLike<number>, upper: ArrayLike<number>, colour: Color): void {
-    const corner = (bits: number) => this.point((bits & 1 ? upper : lower)[0]!, (bits & 2 ? upper : lower)[1]!,
-                                                (bits & 4 ? upper : lower)[2]!, colour);
-    for (let from = 0; from < 8; ++from) {
-      for (const bit of [1, 2, 4]) {
-        if (from & bit) continue;
-        corner(from);
-        corner(from | bit);
-      }
-    }
-  }
-  end(): void {
-    const { geometry } = this.object;
-    geometry.setDrawRange(0, this.count);
-    for (const name of ["position", "color"]) {
-      const attribute = geometry.getAttribute(name);
-      if (attribute !== undefined) attribute.needsUpdate = true;
-    }
-    this.object.visible = this.count > 0;
-  }
-  hide(): void {
-    this.object.visible = false;
-  }
-}
 
 export class Overlays {
   /** A number for each body from 0 to 1, near 1 just after a probe. */
@@ -90,10 +20,12 @@ export class Overlays {
   private readonly bounds = new Spheres(0.4);
   private readonly boxes = new Lines(0.45);
   private readonly cells = new Lines(0.35);
-  private readonly certificates = new Lines(0.9);
+  private readonly certificates = new Lines(0.9, true);
   private readonly alarms = new Lines(0.95);
   private readonly pull = new Lines(0.9);
   private readonly trails: Trails;
+  private readonly ways: Ways;
+  private readonly chosen = new Lines(1, true);
   private readonly zoneMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
   private zone: Mesh | null = null;
   private zoneFlash = 0;
@@ -106,8 +38,9 @@ export class Overlays {
     this.sparks = new Sparks(scene);
     this.missed = new MissedMarks(scene);
     this.trails = new Trails(scene);
+    this.ways = new Ways(scene);
     scene.add(this.bounds.object, this.boxes.object, this.cells.object, this.certificates.object,
-              this.alarms.object, this.pull.object);
+              this.alarms.object, this.pull.object, this.chosen.object);
   }
 
   paint(palette: Palette, isDark: boolean): void {
@@ -121,6 +54,7 @@ export class Overlays {
     this.missed.clear();
     this.glow = new Float32Array(0);
     this.trails.show(shown);
+    this.ways.show(shown);
     if (this.zone !== null) {
       this.scene.remove(this.zone);
       this.zone.geometry.dispose();
@@ -151,9 +85,12 @@ export class Overlays {
     }
   }
 
-  /** `views` is set if a visible overlay needs it. */
-  update(shown: Shown, views: readonly BodyView[] | null, positions: Float64Array, settings: Settings,
-         seconds: number, calm: boolean, pixels: number): void {
+  /**
+   * `views` is set if a visible overlay needs it; `chosen` are places of the chosen bodies, and `focus` has them and their
+   * partners if bounds, boxes and certificates of these alone are drawn.
+   */
+  update(shown: Shown, views: readonly BodyView[] | null, positions: Float64Array, settings: Settings, chosen: readonly number[],
+         focus: ReadonlySet<number> | null, seconds: number, calm: boolean, pixels: number): void {
     const on = settings.overlays;
     this.sparks.fade(on.contacts ? seconds : Infinity, calm, pixels);
     this.missed.update(shown.time, on.evidence, this.palette!.missed);
@@ -161,16 +98,18 @@ export class Overlays {
     this.zoneMaterial.opacity = 0.16 + (calm ? 0.12 : 0.45) * this.zoneFlash;
     if (views !== null && on.probes) this.followProbes(views, seconds, calm);
     else this.glow.fill(0);
-    if (views !== null && on.bounds) this.drawBounds(shown, views);
+    if (views !== null && on.bounds) this.drawBounds(shown, views, focus);
     else this.bounds.object.visible = false;
-    if (views !== null && on.boxes) this.drawBoxes(shown, views);
+    if (views !== null && on.boxes) this.drawBoxes(shown, views, focus);
     else this.boxes.hide();
     if (on.cells) this.drawCells(shown);
     else this.cells.hide();
-    if (views !== null && on.certificates) this.drawCertificates(shown, views, positions);
+    if (views !== null && on.certificates) this.drawCertificates(shown, views, positions, focus === null ? null : chosen);
     else this.certificates.hide();
     this.trails.update(shown, positions, on.trails, this.palette!);
+    this.ways.update(shown, positions, on.trails, chosen, this.palette!);
     this.drawAlarms(shown, positions);
+    this.drawChosen(shown, positions, chosen);
   }
 
   /** Shows a line from a held sphere to its goal; none for null. */
@@ -213,11 +152,11 @@ export class Overlays {
     }
   }
 
-  private drawBounds(shown: Shown, views: readonly BodyView[]): void {
+  private drawBounds(shown: Shown, views: readonly BodyView[], focus: ReadonlySet<number> | null): void {
     this.bounds.resize(views.length);
     const centre = new Float64Array(3);
     for (let k = 0; k < views.length; ++k) {
-      if (!views[k]!.enabled) {
+      if (!views[k]!.enabled || focus?.has(k) === false) {
         this.bounds.hide(k);
         continue;
       }
@@ -228,9 +167,9 @@ export class Overlays {
     this.bounds.done();
   }
 
-  private drawBoxes(shown: Shown, views: readonly BodyView[]): void {
+  private drawBoxes(shown: Shown, views: readonly BodyView[], focus: ReadonlySet<number> | null): void {
     this.boxes.begin(12 * views.length);
-    for (const { box, enabled } of views) if (enabled) this.boxes.box(...inSight(shown, box.lower, box.upper), this.palette!.line);
+    for (const [k, { box, enabled }] of views.entries()) if (enabled && focus?.has(k) !== false) this.boxes.box(...inSight(shown, box.lower, box.upper), this.palette!.line);
     this.boxes.end();
   }
 
@@ -245,19 +184,30 @@ export class Overlays {
     this.cells.end();
   }
 
-  /** Draws lines between pairs, coloured by the time until their certificates fail. */
-  private drawCertificates(shown: Shown, views: readonly BodyView[], positions: Float64Array): void {
-    const certificates = shown.view.certificates();
-    const places = new Map(views.map((view, k) => [view.id, k]));
-    this.certificates.begin(certificates.length / 3);
-    for (let at = 0; at < certificates.length; at += 3) {
-      const first = places.get(certificates[at]!);
-      const second = places.get(certificates[at + 1]!);
-      if (first === undefined || second === undefined) continue;
-      along(this.palette!.times, placeOfDuration(certificates[at + 2]! - shown.view.time), this.colour);
+  /** Draws lines between pairs, coloured by the time until their certificates fail; with `of` those of these bodies alone. */
+  private drawCertificates(shown: Shown, views: readonly BodyView[], positions: Float64Array, of: readonly number[] | null): void {
+    const certificates = certificatesOf(shown, views);
+    this.certificates.begin(certificates.length);
+    for (const { first, second, until } of certificates) {
+      if (of?.some((place) => place === first || place === second) === false) continue;
+      along(this.palette!.times, placeOfDuration(until - shown.view.time), this.colour);
       this.certificates.between(shown, positions, first, second, this.colour);
     }
     this.certificates.end();
+  }
+
+  /** Draws a cube around each chosen body, and a line between two. */
+  private drawChosen(shown: Shown, positions: Float64Array, chosen: readonly number[]): void {
+    const { held } = this.palette!;
+    const radii = shown.radii();
+    const present = chosen.filter((place) => !Number.isNaN(positions[3 * place]!));
+    this.chosen.begin(12 * present.length + 1);
+    for (const place of present) {
+      const corner = (side: number) => [0, 1, 2].map((axis) => positions[3 * place + axis]! + side * 1.15 * radii[place]!);
+      this.chosen.box(corner(-1), corner(1), held);
+    }
+    if (present.length === 2) this.chosen.between(shown, positions, present[0]!, present[1]!, held);
+    this.chosen.end();
   }
 
   /** Draws lines between pairs that may be too near to each other. */
@@ -269,6 +219,23 @@ export class Overlays {
                           distance === shown.alarms?.alarm ? this.palette!.missed : this.palette!.contact);
     this.alarms.end();
   }
+}
+
+/** Certificates, by places of the two bodies in the picture, and when each fails. */
+function certificatesOf({ view }: Shown, views: readonly BodyView[]): { first: number; second: number; until: number }[] {
+  const numbers = view.certificates();
+  const places = new Map(views.map(({ id }, k) => [id, k]));
+  return Array.from({ length: numbers.length / 3 }, (_, k) =>
+    ({ first: places.get(numbers[3 * k]!) ?? -1, second: places.get(numbers[3 * k + 1]!) ?? -1, until: numbers[3 * k + 2]! }))
+    .filter(({ first, second }) => first >= 0 && second >= 0);
+}
+
+/** Returns places of the chosen bodies, and of those that they have a certificate with. */
+export function focusOn(shown: Shown, views: readonly BodyView[], chosen: readonly number[]): ReadonlySet<number> {
+  const focus = new Set(chosen);
+  for (const { first, second } of certificatesOf(shown, views))
+    if (chosen.includes(first) || chosen.includes(second)) focus.add(first).add(second);
+  return focus;
 }
 
 /** Returns the corners of a box, moved so that its centre is in the visible period. */

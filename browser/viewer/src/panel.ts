@@ -8,6 +8,7 @@ export interface PanelActions {
   restart(): void;
   repaint(): void;
   openFile(): void;
+  chooseNearest(): void;
 }
 
 export function makePanel(settings: Settings, actions: PanelActions): GUI {
@@ -29,7 +30,8 @@ export function makePanel(settings: Settings, actions: PanelActions): GUI {
   overlays.add(settings.overlays, "boxes").name("boxes of bodies");
   overlays.add(settings.overlays, "cells").name("cells");
   gui.add(settings, "theme", ["system", "dark", "bright"]).onChange(actions.repaint);
-  gui.add({ open: actions.openFile }, "open").name("open a recording …");
+  gui.add({ choose: actions.chooseNearest }, "choose").name("choose the nearest pair");
+  gui.add({ open: actions.openFile }, "open").name("open a file …");
   if (matchMedia("(max-width: 1100px), (max-height: 500px)").matches) gui.close();
   return gui;
 }

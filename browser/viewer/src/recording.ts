@@ -1,5 +1,5 @@
 // A recording for display: bodies are drawn at the centres of their bounds, since nothing else is recorded.
-import { type BodyView, type Box, type BusyBody, EventHash, Replay, type WorldView } from "kinesphere";
+import { type BodyId, type BodyView, type Box, type BusyBody, EventHash, Replay, type WorldView } from "kinesphere";
 import { type CarriedShapes, carriedShapes, type Orientations, orientationsAt } from "./carried_shapes.ts";
 import { isMissedByLoop } from "./missed.ts";
 import { emptyTally, RecentRate, type Shown, type Tally, type ReportedEvent, wrapInto } from "./shown.ts";
@@ -9,6 +9,8 @@ export class Recording implements Shown {
   readonly region = null;
   readonly zone = null;
   readonly trails = [];
+  readonly ways = [];
+  readonly unit = null;
   readonly alarms = null;
   readonly near = [];
   readonly box: Box | null;
@@ -17,7 +19,7 @@ export class Recording implements Shown {
   private events = new EventHash();
   private counts = emptyTally();
   private rate = new RecentRate();
-  private shownTime: number;
+  private shownTime = 0;
   readonly firstTime: number;
   private carried: CarriedShapes = new Map();
   /** The ids of the moving bodies whose shapes are known. */
@@ -29,9 +31,7 @@ export class Recording implements Shown {
     const { box, periodic } = this.replay.world.definition;
     this.box = box ?? null;
     this.periodic = [periodic.x === true, periodic.y === true, periodic.z === true];
-    // The first steps add bodies.
-    while (!this.replay.finished && this.replay.world.size === 0) this.step([]);
-    this.shownTime = this.firstTime = this.replay.world.time;
+    this.firstTime = this.begin();
   }
 
   get time(): number { return this.shownTime; }
@@ -45,6 +45,19 @@ export class Recording implements Shown {
   /** The world of a replay is not profiled. */
   busiest(): BusyBody[] {
     return [];
+  }
+  idOf(place: number): BodyId {
+    return this.views()[place]!.id;
+  }
+  placeOf(id: BodyId): number | null {
+    const place = this.views().findIndex((view) => view.id === id);
+    return place < 0 ? null : place;
+  }
+  nameOf(id: BodyId): string {
+    return `${id}`;
+  }
+  distanceAt(): null {
+    return null;
   }
   radii(): Float64Array {
     return Float64Array.from(this.views(), (view) => view.radius);
@@ -89,20 +102,29 @@ export class Recording implements Shown {
     return reported;
   }
 
-  /** Goes back by a replay from the start. */
   back(seconds: number): void {
-    const target = this.shownTime - seconds;
+    const target = Math.max(this.shownTime - seconds, this.firstTime);
+    this.rewind();
+    this.run(target);
+  }
+  /** Goes back to the begin: a recording has no other moments. */
+  rewind(): void {
     this.replay.free();
     this.replay = new Replay(this.bytes);
     this.events = new EventHash();
     this.counts = emptyTally();
     this.rate.clear();
-    while (!this.replay.finished && this.replay.world.size === 0) this.step([]);
-    this.run(Math.max(target, this.replay.world.time));
+    this.begin();
   }
 
   free(): void {
     this.replay.free();
+  }
+
+  /** Goes through the first steps, which add bodies. */
+  private begin(): number {
+    while (!this.replay.finished && this.replay.world.size === 0) this.step([]);
+    return this.shownTime = this.replay.world.time;
   }
 
   private step(reported: ReportedEvent[]): void {

@@ -1,5 +1,5 @@
 // A simulation or a recording on the page, in a form for drawing and numbers.
-import type { BodyId, BodyView, Box, BusyBody, Event, WorldView } from "kinesphere";
+import type { BodyId, BodyView, Box, BusyBody, Event, Track, WorldView } from "kinesphere";
 import type { CarriedShapes, Orientations } from "./carried_shapes.ts";
 import type { AlarmDistances } from "./scenes/live_scene.ts";
 
@@ -49,6 +49,10 @@ export interface Shown {
   readonly zone: Box | null;
   /** Places in the picture of the fast bodies that leave trails. */
   readonly trails: readonly number[];
+  /** The recorded ways of all bodies, by place in the picture; empty if the bodies follow none. */
+  readonly ways: readonly Track[];
+  /** Unit of lengths, if it is known. */
+  readonly unit: string | null;
   /** Distances at which pairs are reported before they touch. */
   readonly alarms: AlarmDistances | null;
   /** Pairs that may be within one of these distances now. */
@@ -65,6 +69,13 @@ export interface Shown {
    * begins to count.
    */
   busiest(count: number): BusyBody[];
+  /** Returns the id of the body at a place in the picture. */
+  idOf(place: number): BodyId;
+  /** Returns the place of a body in the picture; null if there is no such body. */
+  placeOf(id: BodyId): number | null;
+  nameOf(id: BodyId): string;
+  /** Returns the distance between the centres of two bodies that follow ways; null at times at which one is absent. */
+  distanceAt(first: BodyId, second: BodyId, time: number): number | null;
   /** Returns the radii, by place in the picture. */
   radii(): Float64Array;
   /** Returns the shapes that bodies carry; the same object until they change. */
@@ -81,6 +92,8 @@ export interface Shown {
   nextEvent(): ReportedEvent[];
   /** Goes back, as far as the history reaches. */
   back(seconds: number): void;
+  /** Goes back to a kept moment that is not later than `time`, as far as the history reaches. */
+  rewind(time: number): void;
   free(): void;
 }
 
@@ -95,6 +108,21 @@ export function shiftInto(box: Box | null, periodic: readonly boolean[], axis: n
   const lower = box.lower[axis]!;
   const size = box.upper[axis]! - lower;
   return -size * Math.floor((coordinate - lower) / size);
+}
+
+/** Returns the image of `to` that is nearest to `from` in periodic space: `to` itself elsewhere. */
+export function nearestImage({ box, periodic }: Pick<Shown, "box" | "periodic">, from: ArrayLike<number>, to: ArrayLike<number>): [number, number, number] {
+  return [0, 1, 2].map((axis) => {
+    if (box === null || !periodic[axis]) return to[axis]!;
+    const size = box.upper[axis]! - box.lower[axis]!;
+    return to[axis]! - size * Math.round((to[axis]! - from[axis]!) / size);
+  }) as [number, number, number];
+}
+
+/** Returns the distance of two places, to the nearest image in periodic space. */
+export function distanceBetween(shown: Pick<Shown, "box" | "periodic">, from: ArrayLike<number>, to: ArrayLike<number>): number {
+  const image = nearestImage(shown, from, to);
+  return Math.hypot(image[0] - from[0]!, image[1] - from[1]!, image[2] - from[2]!);
 }
 
 /** Moves coordinates into the box on periodic axes. */

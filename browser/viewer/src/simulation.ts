@@ -1,11 +1,13 @@
 // A running scene with single steps and a way back, in which bodies can be pushed. Needs no page.
-import { type BodyId, type BodyView, type Box, type BusyBody, type Event, EventHash, type Vec3, type World } from "kinesphere";
+import {
+  type BodyId, type BodyView, type Box, type BusyBody, type Event, EventHash, type Track, type Vec3, type World,
+} from "kinesphere";
 import { type CarriedShapes, carriedShapes, type Orientations, orientationsAt } from "./carried_shapes.ts";
 import { isMissedByLoop, loopLooksWithin } from "./missed.ts";
 import type { AlarmDistances, LiveScene, Setup } from "./scenes/live_scene.ts";
-import { emptyTally, type NearPair, RecentRate, type Shown, type Tally, type ReportedEvent, wrapInto } from "./shown.ts";
+import { distanceBetween, emptyTally, type NearPair, RecentRate, type Shown, type Tally, type ReportedEvent, wrapInto } from "./shown.ts";
 
-/** Simulated time between two snapshots. */
+/** Simulated time between the latest snapshots; the longer ago, the fewer are kept, the first always. */
 const snapshotInterval = 0.25;
 const snapshotsKept = 120;
 /** Simulated time for which the probes of bodies are counted. */
@@ -41,6 +43,8 @@ export class Simulation implements Shown {
   readonly region: Box | null;
   readonly zone: Box | null;
   readonly trails: readonly number[];
+  readonly ways: readonly Track[];
+  readonly unit: string | null;
   readonly alarms: AlarmDistances | null;
   readonly endTime: number;
   readonly periodic: readonly boolean[];
@@ -57,12 +61,14 @@ export class Simulation implements Shown {
   constructor(private readonly setup: Setup, words: { title: string; about: string }) {
     this.title = this.setup.title ?? words.title;
     this.about = this.setup.about ?? words.about;
-    const { scene, zone, trails, alarms, region, endTime } = this.setup;
+    const { scene, zone, trails, ways, unit, alarms, region, endTime } = this.setup;
     const { box, periodic } = scene.world.definition;
     this.box = box ?? null;
     this.region = region ?? null;
     this.zone = zone?.box ?? null;
     this.trails = trails ?? [];
+    this.ways = ways ?? [];
+    this.unit = unit ?? null;
     this.alarms = alarms ?? null;
     this.endTime = endTime ?? Infinity;
     this.periodic = [periodic.x === true, periodic.y === true, periodic.z === true];
@@ -97,6 +103,20 @@ export class Simulation implements Shown {
       world.setProfiling(true);
     }
     return this.profile.before.length > 0 ? this.profile.before : world.busiest(count);
+  }
+  idOf(place: number): BodyId {
+    return place;
+  }
+  placeOf(id: BodyId): number | null {
+    return id < this.setup.radii.length ? id : null;
+  }
+  nameOf(id: BodyId): string {
+    return this.setup.names?.[id] ?? `${id}`;
+  }
+  distanceAt(first: BodyId, second: BodyId, time: number): number | null {
+    const { scene } = this.now;
+    const [one, other] = [first, second].map((body) => scene.positionAt?.(body, time) ?? null);
+    return one === null || other === null ? null : distanceBetween(this, one!, other!);
   }
   radii(): Float64Array {
     return this.setup.radii;
@@ -143,11 +163,15 @@ export class Simulation implements Shown {
 
   back(seconds: number): void {
     const target = Math.max(this.time - seconds, this.firstTime);
-    while (this.snapshots.length > 1 && this.snapshots.at(-1)!.scene.world.time > target) this.snapshots.pop()!.scene.free();
+    this.rewind(target);
+    this.run(target);
+  }
+
+  rewind(time: number): void {
+    while (this.snapshots.length > 1 && this.snapshots.at(-1)!.scene.world.time > time) this.snapshots.pop()!.scene.free();
     this.now.scene.free();
     this.now = copyOf(this.snapshots.at(-1)!);
     this.rate.clear();
-    this.run(target);
   }
 
   /** Sets the velocity until the body is pushed or hits something. */
@@ -237,7 +261,13 @@ export class Simulation implements Shown {
 
   private keepSnapshot(): void {
     this.snapshots.push(copyOf(this.now));
-    if (this.snapshots.length > snapshotsKept) this.snapshots.shift()!.scene.free();
+    if (this.snapshots.length <= snapshotsKept) return;
+    // The one that leaves the smallest gap for its age goes, so that the way back from any time is a fixed part of its age.
+    const times = this.snapshots.map(({ scene }) => scene.world.time);
+    const gapFor = (k: number) => (times[k + 1]! - times[k - 1]!) / (this.time - times[k - 1]!);
+    let least = 1;
+    for (let k = 2; k < times.length - 1; ++k) if (gapFor(k) < gapFor(least)) least = k;
+    this.snapshots.splice(least, 1)[0]!.scene.free();
   }
 }
 

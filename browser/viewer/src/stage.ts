@@ -31,6 +31,8 @@ export class Stage {
   private readonly lineMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.7 });
   private readonly wallMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.07, side: BackSide, depthWrite: false, fog: false });
   private readonly bodies = new Spheres();
+  /** Bodies out of focus. */
+  private readonly ghosts = new Spheres(0.08);
   private readonly shapes = new CarriedShapeMeshes();
   private lightStrength = 1;
   /** What the shader of spheres computes, for shapes: light from above, and a sun that moves with the eye. */
@@ -48,7 +50,7 @@ export class Stage {
     this.controls.dampingFactor = 0.12;
     this.scene.fog = this.fog;
     this.sky.position.copy(this.camera.up);
-    this.scene.add(this.surroundings, this.bodies.object, this.shapes.object, this.sky, this.sun);
+    this.scene.add(this.surroundings, this.bodies.object, this.ghosts.object, this.shapes.object, this.sky, this.sun);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
@@ -129,16 +131,24 @@ export class Stage {
     this.resize();
   }
 
-  /** Draws bodies: three numbers for each, the shape that it carries or else its radius, and its colour. */
-  draw(positions: Float64Array, radii: Float64Array, shapes: CarriedShapes, orientations: Orientations,
+  /**
+   * Draws bodies: three numbers for each, the shape that it carries or else its radius, and its colour; balls that are not
+   * in the focus, if there is one, as mere shadows.
+   */
+  draw(positions: Float64Array, radii: Float64Array, shapes: CarriedShapes, orientations: Orientations, focus: ReadonlySet<number> | null,
        colourOf: (body: number) => Color): void {
     this.bodies.resize(radii.length);
+    this.ghosts.resize(focus === null ? 0 : radii.length);
     for (let k = 0; k < radii.length; ++k) {
       const isBall = !Number.isNaN(positions[3 * k]) && !shapes.has(k);
-      if (isBall) this.bodies.put(k, positions[3 * k]!, positions[3 * k + 1]!, positions[3 * k + 2]!, radii[k]!, colourOf(k));
-      else this.bodies.hide(k);
+      const isGhost = isBall && focus?.has(k) === false;
+      for (const spheres of focus === null ? [this.bodies] : [this.bodies, this.ghosts]) {
+        if (isBall && isGhost === (spheres === this.ghosts)) spheres.put(k, positions[3 * k]!, positions[3 * k + 1]!, positions[3 * k + 2]!, radii[k]!, colourOf(k));
+        else spheres.hide(k);
+      }
     }
     this.bodies.done();
+    this.ghosts.done();
     this.shapes.draw(shapes, positions, orientations, colourOf);
   }
 

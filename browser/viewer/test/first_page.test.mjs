@@ -72,7 +72,7 @@ test("a link shows everybody the same moment, and nonsense in it does no harm", 
   assert.deepEqual([second.time, second.hash, second.probes, second.moment], [1.25, first.hash, first.probes, first.moment]);
   page = await inBrowser.open("?shape=round&seed=-3&t=soon");
   const { moment, playing } = await state(page);
-  assert.deepEqual([moment, playing], [{ shape: "wide", seed: 4, time: null, asLoop: false }, true]);
+  assert.deepEqual([moment, playing], [{ shape: "wide", seed: 4, time: null, view: "all" }, true]);
 });
 
 test("as a loop sees it, discs stand still from look to look", async () => {
@@ -88,9 +88,31 @@ test("as a loop sees it, discs stand still from look to look", async () => {
   assert.notEqual(await picture(1.015), await picture(1.018));
   const { address } = await state(page);
   const linked = await inBrowser.open(address);
-  assert.equal((await state(linked)).moment.asLoop, true);
+  assert.equal((await state(linked)).moment.view, "loop");
   assert.equal(await linked.getByRole("button", { name: "As 60 Hz sees it" }).getAttribute("aria-pressed"), "true");
 });
+
+for (const options of [desktop, phone])
+  test(`side by side, both are seen at the same time, ${options.viewport.width} wide`, async () => {
+    const page = await inBrowser.open("?t=1.001", options);
+    const pictures = () => page.evaluate(() => Array.from(document.querySelectorAll(".live-canvas"),
+      (canvas) => (canvas.clientWidth === 0 ? null : canvas.toDataURL())));
+    assert.equal((await pictures())[1], null);
+    await page.getByRole("button", { name: "Side by side" }).click();
+    await discs(page, (demo) => demo.goTo(1.002));
+    const [all, loop] = await pictures();
+    assert.notEqual(all, loop);
+    const address = (await state(page)).address;
+    await discs(page, (demo) => demo.goTo(1.015));
+    const [later, stillLoop] = await pictures();
+    assert.equal(loop, stillLoop);
+    assert.notEqual(all, later);
+    await discs(page, (demo) => demo.goTo(1.018));
+    assert.notEqual((await pictures())[1], loop, "after the next look");
+    const boxes = await page.evaluate(() => Array.from(document.querySelectorAll(".live-views figure"), (each) => each.getBoundingClientRect().toJSON()));
+    assert.ok(boxes.every(({ left, right }) => left >= 0 && right <= options.viewport.width), JSON.stringify(boxes));
+    assert.equal((await state(await inBrowser.open(address, options))).moment.view, "both");
+  });
 
 test("copies the link of the moment", async () => {
   const page = await inBrowser.open("?t=0.5", { permissions: ["clipboard-read", "clipboard-write"] });
@@ -216,6 +238,8 @@ test("the pages have complained of nothing, and asked nobody else", () => {
 test("it runs from a folder of files, too", async () => {
   const page = await inBrowser.open(pathToFileURL(join(site, "index.html")).href);
   await page.waitForFunction(() => window.kinesphereLive.discs.simulation.time > 0.02);
+  assert.equal(await page.getByRole("link", { name: "the viewer" }).count(), 0, "it would not run there");
+  assert.match(await page.textContent(".hero-legend"), /the viewer, where a server has these files/);
 });
 
 test("the reference of C++ is dark as the system is, from a folder of files, too, where nothing can search", async () => {

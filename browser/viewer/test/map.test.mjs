@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 
-import { browserForTests } from "./page.mjs";
+import { browserForTests, seriousFlaws } from "./page.mjs";
 import { at, coloursAt, difference, isDrawn, isNoMissingServer, namedColour, number, texts, Watch } from "./watch.mjs";
 
 const inBrowser = browserForTests({
@@ -154,6 +154,73 @@ describe("a stream with x and y", () => {
     assert.match(await page.textContent("#lost"), /^The stream has ended, or the watch cannot be reached, since \d\d:\d\d:\d\d\. What is shown is its state at 10\.0 s/);
     assert.deepEqual(complaints.filter(isNoMissingServer), []);
     complaints.length = 0;
+  });
+});
+
+describe("a chosen pair", () => {
+  const watch = new Watch("--dimensions", "2", "--separation", "sphere:30:60s", "--acceleration", "0.1", "--position-error", "1",
+                          "--velocity-error", "0.1");
+  after(() => watch.process.kill());
+  let page;
+  /** Two that pass each other at 20, nearest at 10 s. */
+  const pass = (stamp) => watch.report(at("one & only", stamp, 10 * stamp, 0, [10, 0, 0]), at("other", stamp, 200 - 10 * stamp, 20, [-10, 0, 0]));
+  const sees = (stamp) => page.waitForFunction((stamp) => window.kinesphereMap.scene?.state.time === stamp, stamp);
+
+  test("has its distance over time, within what is certain, and what is expected", async () => {
+    pass(0);
+    pass(1);
+    page = await inBrowser.open(await watch.address, calmly);
+    await sees(1);
+    await page.keyboard.press("p");
+    assert.match(await page.textContent("#details-title"), /one & only – other|other – one & only/);
+    for (const stamp of [2, 4, 5]) {
+      pass(stamp);
+      await sees(stamp);
+    }
+    const rows = await texts(page, "#details-rows dt, #details-rows dd");
+    assert.equal(rows[0], "now");
+    const [, distance, lower, upper] = /^([\d.]+), certainly ([\d.]+) to ([\d.]+)$/.exec(rows[1]).map(Number);
+    assert.ok(lower < distance && distance < upper && Math.abs(distance - Math.hypot(100, 20)) < 1, rows[1]);
+    assert.deepEqual(rows.slice(2), ["closest so far", "102 at 5.0 s", "expected", rows[5]]);
+    assert.match(rows[5], /^CPA 20 ± .* · in 5.0 s$/);
+    const seen = await page.evaluate(() => {
+      const { width, height } = document.querySelector("#details-chart");
+      const { data } = document.querySelector("#details-chart").getContext("2d").getImageData(0, 0, width, height);
+      return { inked: data.filter((value, k) => k % 4 === 3 && value > 0).length / (width * height), label: document.querySelector("#details-chart").getAttribute("aria-label") };
+    });
+    assert.ok(seen.inked > 0.01, `${seen.inked}`);
+    for (const theme of ["dark", "bright"]) {
+      await page.evaluate((theme) => void (document.documentElement.dataset.theme = theme), theme);
+      assert.deepEqual(await seriousFlaws(page), [], theme);
+    }
+    assert.match(seen.label, /^Distance of .* over time; now 10\d, certainly .*; closest so far 102 at 5\.0 s; expected CPA/);
+  });
+
+  test("stands in the address, which leads to it, also before it is one", async () => {
+    const address = page.url();
+    assert.match(address, /#pair=one\+%26\+only&pair=other&level=0$/);
+    page = await inBrowser.open(address, calmly);
+    await page.waitForFunction(() => window.kinesphereMap.chosen.pair === '["one & only","other",0]');
+    page = await inBrowser.open(address.replace("other", "third"), calmly);
+    await sees(5);
+    assert.deepEqual(await page.evaluate(() => ({ ...window.kinesphereMap.chosen })), { track: null, pair: null, hovered: null });
+    pass(6);
+    watch.report(at("third", 7, 170, 0, [-10, 0, 0]), at("far", 8, 5000, 0));
+    await page.waitForFunction(() => window.kinesphereMap.chosen.pair === '["one & only","third",0]');
+    assert.equal(await page.isVisible("#details-chart"), true);
+    await page.keyboard.press("Escape");
+    assert.doesNotMatch(page.url(), /#/);
+    assert.equal(await page.isVisible("#details"), false);
+    await page.evaluate(() => { location.hash = "track=other"; });
+    await page.waitForFunction(() => window.kinesphereMap.chosen.track === "other");
+    assert.equal(await page.isVisible("#details-chart"), false);
+    for (const wrong of ["pair=one", "pair=a&pair=b&level=x", "nothing", "track=nobody"]) {
+      await page.evaluate((wrong) => { location.hash = wrong; }, wrong);
+      await isDrawn(page);
+      assert.equal(await page.evaluate(() => window.kinesphereMap.chosen.track), "other", wrong);
+    }
+    assert.equal(await watch.end(), 0);
+    assert.deepEqual(complaints.filter(isNoMissingServer), []);
   });
 });
 

@@ -93,6 +93,18 @@ export function browserForTests({ given = {}, site, viewport = { width: 900, hei
   return found;
 }
 
+let axe;
+/** Returns what breaks a rule of axe-core so that somebody is shut out, and where; `only` names rules, all if there are none. */
+export async function seriousFlaws(page, only = []) {
+  axe ??= await readFile(resolve(playwright, "../axe-core/axe.min.js"), "utf8");
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate((only) => window.axe.run(document, {
+    resultTypes: ["violations"], ...(only.length > 0 && { runOnly: only }),
+  }), only);
+  return violations.filter(({ impact }) => impact === "serious" || impact === "critical").flatMap(({ id, nodes }) =>
+    nodes.slice(0, 3).map(({ target, any }) => `${id}: ${target} ${any[0]?.message ?? ""}`));
+}
+
 /** Returns a body larger than `least` that can be grabbed, and the place of its centre on the page. */
 export function bodyInSight(page, least) {
   return page.evaluate((least) => {

@@ -460,6 +460,17 @@ test("tracks that are served are shown: people come, pass each other and go", as
   assert.ok(Math.abs(seen.reported[0][1] - (12 - half)) < 1e-4 && Math.abs(seen.reported[1][1] - (12 + half)) < 1e-4, `${seen.reported}`);
 });
 
+test("a link leads to a moment of served tracks, and says if another file is served", async () => {
+  page = await inBrowser.open("#opened&file=people.txt&t=12.5&pair=0,1");
+  await page.waitForFunction(() => window.kinesphereViewer.simulation.time === 12.5);
+  assert.deepEqual(await page.evaluate(() => window.kinesphereViewer.pair.ids), [0, 1]);
+  assert.equal(await page.textContent("#pair-least"), "closest: 0.2 m at 12 s");
+  assert.equal(await page.isHidden("#message"), true);
+  page = await inBrowser.open("#opened&file=others.txt&t=12.5");
+  await page.waitForSelector("#message:not([hidden])");
+  assert.match(await page.textContent("#message-text"), /^The link leads to a moment of others\.txt\. Drop/);
+});
+
 test("a table that is dropped is shown, with its own name and speed", async () => {
   await page.evaluate(() => { window.kinesphereViewer.settings.speed = 0.3; });
   const rows = Array.from({ length: 20 }, (_, k) => `anna;${k / 2};${k / 2};0;1\r\nberta;${k / 2};${9 - k / 2};0.2;1`);

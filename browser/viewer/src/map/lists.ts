@@ -1,10 +1,13 @@
 // The lists next to the map: numbers, closest approaches, report requests, and all about the chosen track.
+import { DistanceChart } from "../distance_chart.ts";
+import { inksOf } from "../inks.ts";
 import { Numbers, put, whole } from "../numbers.ts";
 import { KeyedList, part } from "./keyed_list.ts";
+import { distanceNow, type PairHistory } from "./pair_history.ts";
 import { compareByDistance, compareByTime, type DrawnPair, knowsHeight, labelOf, type Scene } from "./scene.ts";
 import type { Settings } from "./settings.ts";
 import type { Need, StreamTime } from "./state.ts";
-import { durationBetween, durationText, placeText, rangeText, shownName, timeText, unbroken, velocityText, whenText } from "./text.ts";
+import { durationBetween, durationText, placeText, secondsOf, rangeText, shownName, timeText, unbroken, velocityText, whenText } from "./text.ts";
 import { Units } from "./units.ts";
 
 const element = (id: string): HTMLElement => document.querySelector<HTMLElement>(`#${id}`)!;
@@ -41,7 +44,9 @@ export class Lists {
   private scene: Scene | null = null;
   private latest: { time: StreamTime | null; seenAt: number } = { time: null, seenAt: performance.now() };
 
-  constructor(private readonly actions: ListActions, private readonly settings: Settings) {
+  private readonly chart = new DistanceChart(element("details-chart") as HTMLCanvasElement);
+
+  constructor(private readonly actions: ListActions, private readonly settings: Settings, private readonly history: PairHistory) {
     this.within.row.classList.add("within");
     this.predicted.row.classList.add("predicted");
     this.undecided.row.classList.add("undecided");
@@ -72,8 +77,11 @@ export class Lists {
     if (pair !== null) this.pairs.button(pair)?.setAttribute("aria-pressed", "true");
     if (track !== null) this.needs.button(track)?.setAttribute("aria-pressed", "true");
     this.showOnly(track);
-    element("details").hidden = track === null;
-    if (track !== null && this.scene !== null) this.showDetails(this.scene, track);
+    element("details").hidden = track === null && pair === null;
+    this.chart.canvas.hidden = pair === null;
+    if (this.scene === null) return;
+    if (track !== null) this.showDetails(this.scene, track);
+    else if (pair !== null) this.showPair(this.scene, pair);
   }
 
   /** The pairs of the list, in its order. */
@@ -222,16 +230,50 @@ export class Lists {
         rows.push([concern, `${labelOf(scene, pair.first === id ? pair.second : pair.first)}, ${shownName(pair.separation)}`]);
       }
     }
-    element("details-rows").replaceChildren(...rows.map(([name, value]) => {
-      const row = document.createElement("div");
-      const term = document.createElement("dt");
-      const description = document.createElement("dd");
-      term.textContent = name;
-      description.textContent = value;
-      row.append(term, description);
-      return row;
-    }));
+    showRows(rows);
   }
+
+  /** Shows the distance of a pair over time: as far as it was seen, and as it is expected. */
+  private showPair(scene: Scene, key: string): void {
+    const { units } = this;
+    const [first, second] = JSON.parse(key) as [string, string, number];
+    const drawn = scene.pairs.find((pair) => pair.key === key);
+    const labels = drawn === undefined ? [labelOf(scene, first), labelOf(scene, second)] : this.labelsOf(drawn);
+    element("details-title").textContent = labels.join(" – ");
+    const rows: [string, string][] = [];
+    const curve = this.history.of(key);
+    const time = scene.state.time === null ? null : secondsOf(scene.state.time);
+    const distance = drawn === undefined ? null : distanceNow(drawn);
+    const now = time === null || distance === null ? null : { time, distance };
+    const approach = drawn?.approach ?? null;
+    if (drawn === undefined) rows.push(["", "No approach of the two is predicted now, and they are certainly apart."]);
+    else rows.push(["now", `${units.length(distance)}, certainly ${this.distanceLine(drawn).slice("now ".length)}`]);
+    if (curve?.least != null) rows.push(["closest so far", `${units.length(curve.least.distance)} at ${timeText(curve.least.time).text}`]);
+    if (drawn !== undefined && approach !== null) rows.push(["expected", this.approachLine(drawn)]);
+    showRows(rows);
+    this.chart.canvas.hidden = curve === null;
+    if (curve === null || time === null) return;
+    const expected = approach === null ? null : { time: time + approach.seconds, distance: approach.distance, error: approach.error };
+    const separation = scene.state.separations.find(({ name }) => name === drawn?.pair.separation);
+    this.chart.canvas.setAttribute("aria-label", `Distance of ${labels.join(" and ")} over time; ${rows.map((row) => row.join(" ")).join("; ")}`);
+    this.chart.inks = inksOf(this.chart.canvas);
+    this.chart.draw(curve, {
+      span: [curve.line[0]!.time, Math.max(expected?.time ?? time, time, curve.line[0]!.time + 1)], now, expected,
+      lines: separation === undefined ? [] : [{ distance: separation.horizontal, words: units.length(separation.horizontal) }],
+    }, { length: (length) => units.length(length), unitOf: (longest) => units.unitOfBar(longest), time: (at) => timeText(at).text });
+  }
+}
+
+function showRows(rows: readonly (readonly [string, string])[]): void {
+  element("details-rows").replaceChildren(...rows.map(([name, value]) => {
+    const row = document.createElement("div");
+    const term = document.createElement("dt");
+    const description = document.createElement("dd");
+    term.textContent = name;
+    description.textContent = value;
+    row.append(term, description);
+    return row;
+  }));
 }
 
 /** Shows the number of all entries, and of those that a list leaves out. */

@@ -1,11 +1,13 @@
 // The map of a watch: fetches its state, and shows it.
 import { applyTheme, calmQuery, darkQuery, type Theme } from "../theme.ts";
+import { addressOf, chosenOf } from "./address.ts";
 import { Alarm } from "./alarm.ts";
 import { Chart, type Chosen, coloursOfPage } from "./chart.ts";
 import { EarthPlane } from "./earth.ts";
 import { scaleBar } from "./graticule.ts";
 import { followPointers } from "./hand.ts";
 import { Lists } from "./lists.ts";
+import { PairHistory } from "./pair_history.ts";
 import { type Lost, Polling } from "./polling.ts";
 import { boundsOf, labelOf, placesOf, type Scene, sceneOf, type Spot } from "./scene.ts";
 import { keepSettings, keptSettings, type Settings } from "./settings.ts";
@@ -28,7 +30,8 @@ let plane: EarthPlane | null = null;
 /** True if the view follows the tracks, until the user moves it. */
 let isFollowing = true;
 
-const lists = new Lists({ choosePair, chooseTrack: (id) => chooseTrack(id, true) }, settings);
+const pairHistory = new PairHistory();
+const lists = new Lists({ choosePair, chooseTrack: (id) => chooseTrack(id, true) }, settings, pairHistory);
 const alarm = new Alarm({ wordsOf: (pair) => lists.wordsOf(pair), choose: choosePair });
 
 // Drawing.
@@ -59,6 +62,7 @@ function showScale(): void {
 function repaint(): void {
   applyTheme(settings.theme);
   chart.colours = coloursOfPage();
+  lists.showChosen(chosen.track, chosen.pair);
   redraw();
 }
 
@@ -120,7 +124,25 @@ function pan(x: number, y: number): void {
 function showChosen(): void {
   lists.showChosen(chosen.track, chosen.pair);
   redraw();
+  const address = addressOf(chosen);
+  history.replaceState(null, "", address === "" ? location.pathname + location.search : `#${address}`);
 }
+
+/** What the address leads to, until it is there. */
+let awaited = chosenOf(location.hash.slice(1));
+
+/** Goes to what the address leads to, if it is there. */
+function followAddress(): void {
+  const { track, pair } = awaited;
+  if (pair !== null && scene?.pairs.some(({ key }) => key === pair)) choosePair(pair);
+  else if (track !== null && scene?.tracks.has(track)) chooseTrack(track, true);
+  else return;
+  awaited = { track: null, pair: null };
+}
+addEventListener("hashchange", () => {
+  awaited = chosenOf(location.hash.slice(1));
+  followAddress();
+});
 
 function chooseTrack(id: string | null, isToBeSeen: boolean): void {
   chosen.track = id;
@@ -139,6 +161,8 @@ function choosePair(key: string): void {
   chosen.pair = key;
   chosen.track = null;
   showChosen();
+  // On a phone the details are above the list, which scrolls with them.
+  element("lists").scrollTop = 0;
   follow(false);
   fly(drawn.ids, leastWidth(), drawn.approach?.places);
 }
@@ -312,6 +336,7 @@ function show(state: WatchState): void {
   element("lost").hidden = true;
   document.body.classList.remove("lost");
   scene = sceneOf(state);
+  pairHistory.take(scene, chosen.pair);
   plane = planeOf(state);
   const bounds = boundsOf(placesOf(scene.tracks.values()));
   if ((isFirst || wasLost) && bounds !== null) meetAgain(scene);
@@ -319,6 +344,7 @@ function show(state: WatchState): void {
   else lists.show(scene, chosen.track, chosen.pair);
   alarm.take(scene.pairs);
   if (isFollowing && bounds !== null && (isFirst || !view.suits(bounds, leastWidth()))) fit(!isFirst);
+  followAddress();
   map.states += 1;
   redraw();
 }

@@ -1,6 +1,7 @@
 // Names, times, lengths and places in words.
+import { digits } from "../numbers.ts";
 import type { Place, StreamTime } from "./state.ts";
-import { digits, type Units } from "./units.ts";
+import type { Units } from "./units.ts";
 
 /** Invisible characters, and characters that change the direction of text. */
 const unseen = /[\u0000-\u001f\u007f-\u009f\u00ad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]/g;

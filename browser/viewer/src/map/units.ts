@@ -1,4 +1,5 @@
 // The units of a stream's field, or metric ones.
+import { digits } from "../numbers.ts";
 import type { WatchState } from "./state.ts";
 
 /** `plain` is the stream's own unit, which has no name. */
@@ -13,8 +14,6 @@ const knot = nauticalMile / 3600;
 /** TCAS shows an arrow from this vertical speed on. Unit: metres per second. */
 const airArrow = 500 * foot / 60;
 
-export const digits = (value: number, most: number): string =>
-  value.toLocaleString("en", { maximumSignificantDigits: most, useGrouping: false });
 const grouped = (value: number): string => Math.round(value).toLocaleString("en");
 
 /** Returns the units of the stream's field. Lengths of a stream with x and y are metres if a separation says so. */

@@ -31,6 +31,10 @@ class Crowd implements LiveScene {
     for (const { id, enabled } of this.world.bodyViews()) if (!enabled) states.fill(NaN, 6 * id, 6 * id + 6);
     return states;
   }
+  positionAt(body: number, time: number): Float64Array | null {
+    const { begin, end } = this.motion.span(body);
+    return time < begin || time > end ? null : this.motion.states(time, [body]).subarray(0, 3);
+  }
   clone(): Crowd {
     return new Crowd(this.world.clone(), this.motion.clone(), this.changes, this.next);
   }
@@ -88,9 +92,10 @@ export function crowd({ bodies }: SceneChoice, table: TrackTable): Setup {
   }
   changes.sort((a, b) => a.time - b.time);
   const distance = `${Number((2 * radius).toPrecision(2))}${table.unit === null ? "" : ` ${table.unit}`}`;
-  const about = `As it was recorded. Two that come within ${distance} of each other are reported.`;
+  const about = `As it was recorded. Two that come within ${distance} of each other are reported. Click two for their distance over time.`;
   return {
     title: table.name, about,
     scene: new Crowd(world, motion, changes, 0), radii: new Float64Array(tracks.length).fill(radius), region, endTime,
+    names: tracks.map(({ id }) => id), unit: table.unit, ways: tracks,
   };
 }

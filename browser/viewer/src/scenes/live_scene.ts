@@ -1,5 +1,5 @@
 // A running scene: a world, a motion of its bodies, and responses to its events.
-import type { BodyId, Box, Event, Motion, RunOptions, Vec3, World } from "kinesphere";
+import type { BodyId, Box, Event, Motion, RunOptions, Track, Vec3, World } from "kinesphere";
 
 export interface LiveScene {
   readonly world: World;
@@ -9,6 +9,8 @@ export interface LiveScene {
   readonly presentCount?: number;
   /** Returns true positions and velocities of bodies: six numbers for each, NaN for absent ones. */
   states(): Float64Array;
+  /** Returns the true position at any time; null for an absent body. Missing if bodies follow no recorded ways. */
+  positionAt?(body: BodyId, time: number): Float64Array | null;
   /** Sets the velocity until the body is pushed or hits something. Absent if bodies follow fixed paths. */
   setVelocity?(body: BodyId, velocity: Vec3): void;
   /** Returns a copy with an equal future. */
@@ -24,8 +26,14 @@ export interface Setup {
   about?: string;
   /** Radius of each body. */
   radii: Float64Array;
+  /** Names of bodies; numbers if there are none. */
+  names?: readonly string[];
+  /** Unit of lengths, if it is known. */
+  unit?: string | null;
   /** Fast bodies whose trails are shown. */
   trails?: readonly BodyId[];
+  /** The recorded ways of all bodies. */
+  ways?: readonly Track[];
   /** A thin zone; its crossings are counted. */
   zone?: { id: BodyId; box: Box };
   /** Distances between surfaces at which there is a warning and an alarm. */

@@ -4,8 +4,8 @@ import type { Simulation } from "../simulation.ts";
 import { calmQuery } from "../theme.ts";
 import { drawAsLoop, drawDiscs, looksUntil } from "./discs_picture.ts";
 import { button, copyButton, make, slider } from "./elements.ts";
-import { FlatPicture } from "./flat_picture.ts";
-import { followInks } from "./inks.ts";
+import { FlatPicture } from "../flat_picture.ts";
+import { followInks } from "../inks.ts";
 import { newSimulation, type WholeRun, wholeRun } from "./whole_run.ts";
 
 /** Simulated seconds in a second. */
@@ -22,9 +22,10 @@ interface Moment {
   seed: number;
   /** Null if nothing is said: the run begins, and plays. */
   time: number | null;
-  /** Whether it is seen as a loop of 60 Hz sees it. */
-  asLoop: boolean;
+  view: DiscsView;
 }
+/** What is seen: what Kinesphere finds, what a loop of 60 Hz does, or both beside each other. */
+type DiscsView = "all" | "loop" | "both";
 
 const largestSeed = 9999;
 
@@ -37,7 +38,7 @@ function momentOf(address: URL): Moment {
     shape: shape === "wide" || shape === "tall" ? shape : matchMedia("(max-width: 720px)").matches ? "tall" : "wide",
     seed: Number.isInteger(seed) && seed >= 1 && seed <= largestSeed ? seed : 4,
     time: time >= 0 && time <= discsEnd ? time : null,
-    asLoop: searchParams.get("view") === "loop",
+    view: (["loop", "both"] as const).find((view) => view === searchParams.get("view")) ?? "all",
   };
 }
 
@@ -53,9 +54,14 @@ export class DiscsDemo {
   private last = 0;
   private inSight = true;
   private readonly canvas = make("canvas", { role: "img", class: "live-canvas" });
+  private readonly loopCanvas = make("canvas", { role: "img", class: "live-canvas", "aria-label": "The same as a loop of 60 Hz sees it" });
   private readonly picture: FlatPicture;
+  /** Beside the other one, if both are seen. */
+  private readonly loopPicture: FlatPicture;
+  private readonly views = make("div", { class: "live-views" });
   private readonly play = button("Pause", () => this.setPlaying(!this.playing));
-  private readonly loop = button("As 60 Hz sees it", () => this.seeAsLoop(!this.moment.asLoop));
+  private readonly loop = button("As 60 Hz sees it", () => this.see(this.moment.view === "loop" ? "all" : "loop"));
+  private readonly both = button("Side by side", () => this.see(this.moment.view === "both" ? "all" : "both"));
   private readonly timeline = slider("Time", [0, discsEnd, 0.001], 0, (time) => { this.setPlaying(false); this.goTo(time); });
   private readonly marks = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   private readonly cells: Record<"found" | "seen" | "missed" | "asked" | "looks", HTMLElement>;
@@ -66,24 +72,29 @@ export class DiscsDemo {
     this.simulation = newSimulation(this.choice);
     this.run = wholeRun(this.choice);
     const { width, height } = shapes[this.moment.shape];
-    this.picture = new FlatPicture(this.canvas, { left: 0, bottom: 0, right: width, top: height });
-    this.canvas.style.aspectRatio = `${width} / ${height}`;
+    const picture = (canvas: HTMLCanvasElement) => {
+      canvas.style.aspectRatio = `${width} / ${height}`;
+      return new FlatPicture(canvas, { left: 0, bottom: 0, right: width, top: height });
+    };
+    [this.picture, this.loopPicture] = [picture(this.canvas), picture(this.loopCanvas)];
     this.canvas.setAttribute("aria-label", "Discs bounce in a box, ten times slower than they are. A ring around each, where it must " +
       "be, grows until the disc is asked. Contacts are marked; those that a loop of 60 Hz misses keep a ring with a cross.");
     this.cells = fillNumbers(numbers);
     legendPlace.replaceChildren(legend());
     this.marks.setAttribute("class", "live-marks");
     this.marks.setAttribute("aria-hidden", "true");
-    place.replaceChildren(this.canvas);
+    this.views.append(make("figure", {}, this.canvas, make("figcaption", {}, "Kinesphere")),
+                      make("figure", { class: "live-loop" }, this.loopCanvas, make("figcaption", {}, "60 Hz")));
+    place.replaceChildren(this.views);
     controls.replaceChildren(make("div", { class: "live-timeline" }, rowNames(), this.marks, this.timeline.row), this.buttons());
     followInks(place, (inks) => {
-      this.picture.inks = inks;
+      this.picture.inks = this.loopPicture.inks = inks;
       this.draw();
     });
     new ResizeObserver(() => this.draw()).observe(this.canvas);
     new IntersectionObserver(([seen]) => { this.inSight = seen!.isIntersecting; }).observe(this.canvas);
     this.markContacts();
-    this.seeAsLoop(this.moment.asLoop);
+    this.see(this.moment.view);
     this.goTo(this.moment.time ?? (calmQuery.matches ? 1 : 0));
     this.setPlaying(this.moment.time === null && !calmQuery.matches);
     requestAnimationFrame((now) => this.frame(now));
@@ -91,9 +102,9 @@ export class DiscsDemo {
 
   /** The address of what is seen now. */
   get address(): string {
-    const { shape, seed, asLoop } = this.moment;
+    const { shape, seed, view } = this.moment;
     const address = new URL(location.href);
-    address.search = new URLSearchParams({ shape, seed: `${seed}`, t: this.simulation.time.toFixed(4), ...(asLoop && { view: "loop" }) }).toString();
+    address.search = new URLSearchParams({ shape, seed: `${seed}`, t: this.simulation.time.toFixed(4), ...(view !== "all" && { view }) }).toString();
     address.hash = "";
     return address.href;
   }
@@ -118,9 +129,10 @@ export class DiscsDemo {
     this.goTo(next?.time ?? 0);
   }
 
-  seeAsLoop(asLoop: boolean): void {
-    this.moment.asLoop = asLoop;
-    this.loop.setAttribute("aria-pressed", `${asLoop}`);
+  see(view: DiscsView): void {
+    this.moment.view = this.views.dataset["view"] = view;
+    this.loop.setAttribute("aria-pressed", `${view === "loop"}`);
+    this.both.setAttribute("aria-pressed", `${view === "both"}`);
     this.draw();
   }
 
@@ -140,7 +152,7 @@ export class DiscsDemo {
 
   private buttons(): HTMLElement {
     const another = () => { this.choose(this.moment.seed % largestSeed + 1); this.setPlaying(!calmQuery.matches); };
-    return make("div", { class: "live-buttons" }, this.play, button("Next contact", () => this.next()), this.loop,
+    return make("div", { class: "live-buttons" }, this.play, button("Next contact", () => this.next()), this.loop, this.both,
                 button("Another run", another), copyButton("Copy link", () => this.address));
   }
 
@@ -172,7 +184,8 @@ export class DiscsDemo {
 
   private draw(): void {
     if (this.picture.inks === null || this.canvas.clientWidth === 0) return;
-    (this.moment.asLoop ? drawAsLoop : drawDiscs)(this.picture, this.simulation, this.run);
+    (this.moment.view === "loop" ? drawAsLoop : drawDiscs)(this.picture, this.simulation, this.run);
+    if (this.moment.view === "both") drawAsLoop(this.loopPicture, this.simulation, this.run);
     const { time, tally, view } = this.simulation;
     this.timeline.input.value = `${time}`;
     this.timeline.output.textContent = `${time.toFixed(3)} s`;

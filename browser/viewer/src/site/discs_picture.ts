@@ -1,7 +1,7 @@
 // The discs at a time: their bounds, what was asked just now, contacts, and where a loop looks.
 import { loopRate } from "../missed.ts";
 import type { Simulation } from "../simulation.ts";
-import type { FlatPicture } from "./flat_picture.ts";
+import type { FlatPicture } from "../flat_picture.ts";
 import { placeInterval, placesPerLook, type WholeRun } from "./whole_run.ts";
 
 /** Simulated seconds for which a probe shows, and in which the ring of a contact grows. */

@@ -20,6 +20,9 @@ async function bringToLife(): Promise<void> {
       live.discs = new DiscsDemo({ discs, numbers: placed("numbers")!, controls: placed("controls")!, legend: placed("legend")! });
     if (twoBodies !== null) live.twoBodies = new TwoBodies(twoBodies);
     note?.remove();
+    // Browsers load no modules from a folder of files.
+    if (location.protocol === "file:")
+      document.querySelector("a[href='viewer/index.html']")?.replaceWith("In three dimensions: the viewer, where a server has these files, as python3 -m http.server does");
   } catch (error) {
     if (note !== null) note.textContent = `A still picture: ${(error as Error).message}.`;
     throw error;

@@ -1,8 +1,8 @@
 // The lesson in two bodies: their promise is dragged, and time goes from step to step.
 import { calmQuery } from "../theme.ts";
 import { button, copyButton, make, slider } from "./elements.ts";
-import { FlatPicture } from "./flat_picture.ts";
-import { followInks } from "./inks.ts";
+import { FlatPicture } from "../flat_picture.ts";
+import { followInks } from "../inks.ts";
 import { type Life, lifeEnd, lifeOf, type Moment, momentOf, type Step, trueAccelerations } from "./two_bodies_life.ts";
 import { chartExtent, drawChart, drawPlane, planeExtent } from "./two_bodies_picture.ts";
 

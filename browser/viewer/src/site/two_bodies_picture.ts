@@ -1,6 +1,6 @@
 // The two bodies at a moment, and the curve of their gap.
-import type { FlatPicture } from "./flat_picture.ts";
-import type { Ink } from "./inks.ts";
+import type { FlatPicture } from "../flat_picture.ts";
+import type { Ink } from "../inks.ts";
 import { type Life, lifeEnd, type Moment, radius, type Sample } from "./two_bodies_life.ts";
 
 export const planeExtent = { left: -8, right: 8, bottom: -2.7, top: 2.7 };

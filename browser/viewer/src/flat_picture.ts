@@ -24,9 +24,10 @@ export class FlatPicture {
   private scale = [1, 1];
   private origin = [0, 0];
   inks: Inks | null = null;
+  font = "600 14px system-ui, sans-serif";
 
   /** With `stretched` the extent fills the canvas, and x and y have scales of their own. */
-  constructor(readonly canvas: HTMLCanvasElement, readonly extent: Extent, private readonly stretched = false) {
+  constructor(readonly canvas: HTMLCanvasElement, public extent: Extent, private readonly stretched = false) {
     this.context = canvas.getContext("2d")!;
   }
 
@@ -77,7 +78,7 @@ export class FlatPicture {
   }
   /** A stroke is drawn around the letters. */
   text(x: number, y: number, words: string, pen: Pen & { align?: CanvasTextAlign }): void {
-    this.context.font = "600 14px system-ui, sans-serif";
+    this.context.font = this.font;
     this.context.textAlign = pen.align ?? "left";
     this.context.globalAlpha = pen.opacity ?? 1;
     if (pen.stroke !== undefined) {

@@ -1,11 +1,11 @@
-// The colours of live pictures: those of the page, which follow its dark switch.
+// The colours of pictures in a plane: those of the page, which follow its dark switch.
 
-/** A stroke or a fill for each meaning. Their values are custom properties, --live-NAME, in docs/assets/site.css. */
+/** A stroke or a fill for each meaning. Their values are custom properties, --live-NAME, in docs/assets/site.css and base.css. */
 const names = ["paper", "frame", "ink", "quiet", "body", "other", "probe", "contact", "missed", "sure"] as const;
 export type Ink = (typeof names)[number];
 export type Inks = Readonly<Record<Ink, string>>;
 
-function inksOf(element: Element): Inks {
+export function inksOf(element: Element): Inks {
   const style = getComputedStyle(element);
   return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--live-${name}`).trim()])) as Inks;
 }
