@@ -73,7 +73,7 @@ std::string summary_of(const SceneParameters& parameters, const Scene& scene, co
   summary.space();
   add_events(
       summary, result,
-      {.ends = scene.response == SceneResponse::pass_through, .zeno_guard = scene.resting_speed > 0.0});
+      {.ends = scene.response == SceneResponse::pass_through, .internals = scene.resting_speed > 0.0});
   summary.space();
   const std::uint64_t probes = result.counters.probes;
   summary.row("probes", grouped(probes),

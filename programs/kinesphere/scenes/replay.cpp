@@ -48,7 +48,7 @@ int replay(const ReplayOptions& options) {
                           number(static_cast<double>(bytes.size()) / result->body_time)));
   summary.space();
   add_events(summary, *result,
-             {.ends = result->counters.count(EventKind::contact_end) > 0, .zeno_guard = true});
+             {.ends = result->counters.count(EventKind::contact_end) > 0, .internals = true});
   summary.row("probes", grouped(result->counters.probes), "answered from the recording");
   summary.space();
   summary.row("verdict", "the same to the last bit");

@@ -166,9 +166,8 @@ std::string summary_of(const SceneParameters& parameters, const RunOptions& opti
   const DetectorCounters& counters = result.counters;
   const auto probes = static_cast<double>(counters.probes);
   Summary summary;
-  add_events(
-      summary, result,
-      {.ends = scene.response == SceneResponse::pass_through, .zeno_guard = scene.resting_speed > 0.0});
+  add_events(summary, result,
+             {.ends = scene.response == SceneResponse::pass_through, .internals = options.verbose});
   if (hardest) add_hardest(summary, *hardest);
   summary.space();
   summary.row("simulated", fmt::format("{} s", number(result.simulated_time)),

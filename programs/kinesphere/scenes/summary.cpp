@@ -91,7 +91,7 @@ void add_events(Summary& summary, const SceneResult& result, const EventRows& ro
   };
   row("contacts", EventKind::contact_begin, EventKind::contact_end);
   row("wall contacts", EventKind::wall_begin, EventKind::wall_end);
-  if (counters.repeated_contacts > 0) {
+  if (rows.internals && counters.repeated_contacts > 0) {
     summary.row("repeated", grouped(counters.repeated_contacts), "contacts within the Zeno interval");
   }
   if (counters.jammed_contacts > 0) {
@@ -99,7 +99,7 @@ void add_events(Summary& summary, const SceneResult& result, const EventRows& ro
                 "contacts without room, which lose energy: choose a smaller tolerance", Tone::bad);
   }
   const std::uint64_t guards = counters.count(EventKind::zeno_guard);
-  if (guards + counters.zeno_steps > 0 || rows.zeno_guard) {
+  if (guards > 0 || rows.internals) {
     summary.row("zeno guard", grouped(guards),
                 fmt::format("contacts left to overlap; {} looks put off within the tolerance",
                             grouped(counters.zeno_steps)));

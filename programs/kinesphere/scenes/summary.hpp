@@ -41,8 +41,8 @@ std::string number(double value);
 void add_scene(Summary& summary, const SceneParameters& parameters);
 /// Rows that a summary has even with a count of 0.
 struct EventRows {
-  bool ends = false;        ///< row for ends of contacts
-  bool zeno_guard = false;  ///< row for the number of its actions
+  bool ends = false;       ///< row for ends of contacts
+  bool internals = false;  ///< rows for contacts that follow each other within the Zeno interval
 };
 /// Adds contacts, walls and errors.
 void add_events(Summary& summary, const SceneResult& result, const EventRows& rows);
