@@ -10,7 +10,6 @@
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/fields/clock_days.hpp"
 #include "formats/fields/field_text.hpp"
 #include "formats/fields/line_text.hpp"
 #include "formats/nmea/nmea_line.hpp"
@@ -36,6 +35,13 @@ const GpsSentence* gps_sentence(std::string_view text) {
   if (text.size() < 7 || text[6] != ',') return nullptr;
   const auto found = std::ranges::find(gps_sentences, text.substr(3, 3), &GpsSentence::name);
   return found == std::end(gps_sentences) ? nullptr : found;
+}
+
+/// Returns the time as a table has it: 2024-01-31T12:30:15.5Z.
+std::string logged_time(std::chrono::sys_days day, const LoggedClock& clock) {
+  const std::chrono::year_month_day date(day);
+  return fmt::format("{:04}-{:02}-{:02}T{}Z", static_cast<int>(date.year()),
+                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), clock.text);
 }
 
 /// What the sentences of one time of day say.
@@ -205,12 +211,20 @@ class GpsReader {
           fmt::format("{}: expected a date (RMC or ZDA) for all receivers or for none, unlike "
                       "for {}",
                       file_, id));
-    PassingDays days(has_days ? *all[*first].day : std::chrono::sys_days{});
-    if (has_days && all[own.front()].clock.second > all[*first].clock.second + 43'200.0)
-      days.set(*all[*first].day - std::chrono::days(1));
+    constexpr double half_a_day = 43'200.0;
+    std::chrono::sys_days day = has_days ? *all[*first].day : std::chrono::sys_days{};
+    if (has_days && all[own.front()].clock.second > all[*first].clock.second + half_a_day)
+      day -= std::chrono::days(1);
+    // A clock that falls by half a day or more has passed midnight.
+    std::optional<double> before;
     for (const std::size_t k : own) {
-      if (all[k].day) days.set(*all[k].day);
-      all[k].day = days.day_of(all[k].clock);
+      const double second = all[k].clock.second;
+      if (all[k].day)
+        day = *all[k].day;
+      else if (before && second < *before - half_a_day)
+        day += std::chrono::days(1);
+      all[k].day = day;
+      before = second;
     }
   }
 

@@ -12,18 +12,12 @@ namespace {
 /// The first kind that a text is counts.
 constexpr RecordingKind kinds[] = {
     {"a trace of tar1090", is_json_trace, read_json_trace},
-    {"a flight log (IGC)", is_igc, read_igc},
     {"GPX", [](std::string_view text) { return root_element(text) == "gpx"; }, read_gpx},
-    {"KML", [](std::string_view text) { return root_element(text) == "kml"; }, read_kml},
     {"the FCD output of SUMO", [](std::string_view text) { return root_element(text) == "fcd-export"; },
      read_fcd},
     {"a dump of LAMMPS", [](std::string_view text) { return text.starts_with("ITEM: "); }, read_lammps},
     {"XYZ", is_xyz, read_xyz},
     {"a log of a GPS receiver", is_gps_log, read_gps_log},
-    {"an export of motion capture", is_motion_capture, read_motion_capture},
-    {"a record of Vissim", is_vissim, read_vissim},
-    {"a table of pNEUMA", is_pneuma, read_pneuma},
-    {"a track of OziExplorer or GeoLife (PLT)", is_plt, read_plt},
     {"an ephemeris (OEM)",
      [](std::string_view text) { return trimmed(text.substr(0, 100)).starts_with("CCSDS_OEM_VERS"); },
      read_oem},

@@ -1,4 +1,4 @@
-// Recordings in XML, which expat reads: GPX, KML with times, and the FCD output of SUMO.
+// Recordings in XML, which expat reads: GPX, and the FCD output of SUMO.
 #include <fmt/format.h>
 
 #include <limits>
@@ -7,13 +7,9 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "base/ascii_text.hpp"
-#include "base/number_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/fields/line_text.hpp"
 #include "formats/recordings/recording_kinds.hpp"
 #include "formats/recordings/track_labels.hpp"
 #include "formats/tables/table_columns.hpp"
@@ -58,7 +54,6 @@ class XmlElements {
     if (text_.size() > std::numeric_limits<int>::max())
       throw ProgramError(fmt::format("{}: expected {} of less than 2 GiB", file_, kind_));
     const XML_Status status = XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), 1);
-    if (!failure_.empty()) throw ProgramError(failure_);
     if (status == XML_STATUS_ERROR)
       throw ProgramError(fmt::format("{}:{}: expected {}: {}", file_, line(), kind_,
                                      XML_ErrorString(XML_GetErrorCode(parser_.get()))));
@@ -73,11 +68,6 @@ class XmlElements {
 
   /// The text since the last beginning of an element, as a field of a table.
   std::string content() const { return plain(content_); }
-  /// Ends the reading: read_all() throws ProgramError with this text, naming file and line.
-  void fail(std::string_view text) {
-    if (failure_.empty()) failure_ = fmt::format("{}:{}: {}", file_, line(), text);
-    XML_StopParser(parser_.get(), XML_FALSE);
-  }
   std::size_t line() const { return XML_GetCurrentLineNumber(parser_.get()); }
   const std::string& file() const { return file_; }
   /// Returns an attribute as a field of a table; empty if there is none.
@@ -103,7 +93,6 @@ class XmlElements {
   std::string_view kind_;
   std::unique_ptr<std::remove_pointer_t<XML_Parser>, Free> parser_;
   std::string content_;
-  std::string failure_;
 };
 
 /// The points of tracks (trk).
@@ -150,81 +139,6 @@ class GpxReader final : XmlElements {
   TrackLabels labels_;
   std::size_t tracks_ = 0;
   bool is_in_track_ = false, is_in_point_ = false, has_times_ = false;
-};
-
-/// Tracks with times (gx:Track).
-class KmlReader final : XmlElements {
- public:
-  using XmlElements::XmlElements;
-
-  RowTable read() {
-    read_all();
-    if (table_.size() == 0)
-      throw ProgramError(fmt::format(
-          "{}: expected tracks with times (gx:Track), but there are none: other lines of KML have "
-          "no times",
-          file()));
-    table_.use_heights_of_all(file());
-    if (has_other_heights_)
-      table_.warnings.push_back(fmt::format(
-          "{}: heights whose altitudeMode is not absolute are not above the sea, and are not used", file()));
-    return std::move(table_);
-  }
-
- private:
-  struct Place {
-    std::string longitude, latitude, height;
-    std::size_t line = 0;
-  };
-
-  void begin(std::string_view name, const char**) override {
-    if (name == "Placemark") {
-      name_ = fmt::format("track {}", ++placemarks_);
-      has_label_ = false;
-    }
-    if (name != "Track") return;
-    // All tracks of a placemark are one body.
-    if (!std::exchange(has_label_, true)) name_ = labels_.label(name_);
-    is_in_track_ = true;
-    has_heights_ = false;
-    times_.clear();
-    places_.clear();
-  }
-  void end(std::string_view name) override {
-    if (name == "name" && !is_in_track_) name_ = content();
-    if (!is_in_track_) return;
-    // Others are above ground, or have none.
-    if (name == "altitudeMode") has_heights_ = content() == "absolute";
-    if (name == "when") times_.push_back(content());
-    if (name == "coord") add_place(words_of(content()));
-    if (name == "Track") end_track();
-  }
-
-  void add_place(const std::vector<std::string_view>& words) {
-    const auto word = [&](std::size_t place) {
-      return std::string(place < words.size() ? words[place] : "");
-    };
-    has_other_heights_ = has_other_heights_ || (!has_heights_ && parse_number(word(2)).value_or(0.0) != 0.0);
-    places_.push_back({word(0), word(1), has_heights_ ? word(2) : "", line()});
-  }
-  void end_track() {
-    is_in_track_ = false;
-    if (times_.size() != places_.size())
-      return fail(fmt::format("expected as many times as places of track '{}', but got {} and {}", name_,
-                              times_.size(), places_.size()));
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-      const Place& place = places_[k];
-      table_.add_row(place.line, name_, times_[k], place.longitude, place.latitude, place.height);
-    }
-  }
-
-  RowTable table_{"KML", {"id", "time", "lon", "lat", "alt"}};
-  std::vector<Place> places_;       ///< of the track
-  std::vector<std::string> times_;  ///< of the track
-  std::string name_;                ///< of the placemark
-  TrackLabels labels_;
-  std::size_t placemarks_ = 0;
-  bool is_in_track_ = false, has_heights_ = false, has_other_heights_ = false, has_label_ = false;
 };
 
 /// Vehicles and persons at each time step. Vehicles have their id; those of persons and containers are other
@@ -281,7 +195,6 @@ RowTable read_xml(const RecordingText& recording, std::string_view kind) {
 #else
 
 class GpxReader;
-class KmlReader;
 class FcdReader;
 
 template <class>
@@ -295,7 +208,6 @@ RowTable read_xml(const RecordingText& recording, std::string_view kind) {
 }  // namespace
 
 RowTable read_gpx(const RecordingText& recording) { return read_xml<GpxReader>(recording, "GPX"); }
-RowTable read_kml(const RecordingText& recording) { return read_xml<KmlReader>(recording, "KML"); }
 RowTable read_fcd(const RecordingText& recording) {
   return read_xml<FcdReader>(recording, "FCD output of SUMO");
 }

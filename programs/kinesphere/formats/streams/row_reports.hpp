@@ -41,7 +41,6 @@ class NamedRows {
   NamedRows(const RowTable& table, const FormatChoices& choices)
       : head_(choices.source), reports_(make_row_reports(head_.head(), choices, false, &table)) {
     head_.set_separator(',');
-    for (const std::string& comment : table.comments) head_.comment(comment);
     head_.row({table.names().begin(), table.names().end()});
   }
   NamedRows(const NamedRows&) = delete;

@@ -26,8 +26,7 @@ class RowTable {
     for (const std::string_view name : columns) column_of(name);
   }
 
-  std::string format;                 ///< for the summary
-  std::vector<std::string> comments;  ///< that stand above a table: "framerate: 25 fps"
+  std::string format;  ///< for the summary
   std::vector<std::string> warnings;
   bool is_one_body = false;  ///< all rows are of one body, called like the file
   TableColumns::Place place_on_body = TableColumns::Place::middle;  ///< where on a body its position is
