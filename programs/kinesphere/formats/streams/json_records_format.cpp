@@ -1,6 +1,5 @@
 // JSON records as they come, an object in each line: rows of a table whose columns are their keys.
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
@@ -47,19 +46,23 @@ class JsonRecordsFormat final : public ReportFormat {
   }
   const RowReader* rows() const override { return table_ ? table_->reports().rows() : nullptr; }
 
-  nlohmann::json save() const override {
-    return {{"names", rows_.table.names()},
-            {"first", table_ ? table_->head().first : std::vector<std::string>()},
-            {"table", table_ ? table_->reports().save() : nlohmann::json()}};
+  void save(ByteWriter& state) const override {
+    state(rows_.table.names(), table_ != nullptr);
+    if (!table_) return;
+    state(table_->head().first);
+    table_->reports().save(state);
   }
-  void restore(const nlohmann::json& state) override {
-    for (const std::string name : state.at("names")) rows_.table.column_of(name);
+  void restore(ByteReader& state) override {
+    std::vector<std::string> names, first;
+    bool has_table = false;
+    state(names, has_table);
+    for (const std::string& name : names) rows_.table.column_of(name);
     names_taken_ = rows_.table.names().size();
-    if (state.at("table").is_null()) return;
-    const auto first = state.at("first").get<std::vector<std::string>>();
+    if (!has_table) return;
+    state(first);
     table_ = std::make_unique<NamedRows>(rows_.table, choices_);
     table_->take_first({first.begin(), first.end()});
-    table_->reports().restore(state.at("table"));
+    table_->reports().restore(state);
   }
 
  private:

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/ascii_text.hpp"
@@ -53,10 +52,6 @@ void refuse_table_options(const FormatChoices& choices) {
 }
 
 }  // namespace
-
-nlohmann::json ReportFormat::save() const { return nullptr; }
-void ReportFormat::restore(const nlohmann::json&) {}
-void ReportFormat::finish(ReportSink&) {}
 
 std::string_view name_of(StreamFormat format) { return row_of(format).name; }
 

@@ -3,13 +3,13 @@
 
 #include <functional>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "archive/archive.hpp"
 #include "formats/streams/source_report.hpp"
 #include "formats/tables/record_cutter.hpp"
 #include "formats/tables/row_splitter.hpp"
@@ -35,11 +35,20 @@ class ReportFormat {
   /// Returns what kind of recording was read; empty for other formats.
   virtual std::string_view title() const { return {}; }
   /// Call it at the end of the stream. Throws UnusableStream.
-  virtual void finish(ReportSink& sink);
-  /// Returns the state from earlier records, for a run that continues behind them.
-  virtual nlohmann::json save() const;
-  /// Restores the state of save(). Throws ProgramError like read(), or an exception of nlohmann::json.
-  virtual void restore(const nlohmann::json& state);
+  virtual void finish(ReportSink& /*sink*/) {}
+  /// Writes the state from earlier records, for a run that continues behind them.
+  virtual void save(ByteWriter& /*state*/) const {}
+  /// Restores the state of save(); it has failed if it is none of this format. Throws ProgramError like
+  /// read().
+  virtual void restore(ByteReader& /*state*/) {}
+};
+
+/// A format that remembers the fields that its serialize() names.
+template <class Format>
+class RememberingFormat : public ReportFormat {
+ public:
+  void save(ByteWriter& state) const final { Format::serialize(static_cast<const Format&>(*this), state); }
+  void restore(ByteReader& state) final { Format::serialize(static_cast<Format&>(*this), state); }
 };
 
 /// Returns "readsb" and so on.

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 #include <vector>
 
@@ -24,10 +23,10 @@ class RowReports {
   virtual void finish() const = 0;
   /// Returns the reader of the rows; null before the first of them.
   virtual const RowReader* rows() const = 0;
-  /// Returns the state from earlier rows, without the head of the table.
-  virtual nlohmann::json save() const = 0;
+  /// Writes the state from earlier rows, without the head of the table.
+  virtual void save(ByteWriter& state) const = 0;
   /// Restores the state of save(). Precondition: the head is as it was then.
-  virtual void restore(const nlohmann::json& state) = 0;
+  virtual void restore(ByteReader& state) = 0;
 };
 
 /// `head` must outlive it, and is complete with the first row. `is_ais`: the tracks are ships. `recording`:

@@ -1,6 +1,4 @@
 // Tables as text with a report in each line: with a map of columns, or AIS as it is published in tables.
-#include <nlohmann/json.hpp>
-
 #include "formats/streams/row_reports.hpp"
 #include "formats/tables/text_table.hpp"
 
@@ -19,13 +17,14 @@ class CsvFormat final : public ReportFormat {
   void finish(ReportSink& /*sink*/) override { reports_->finish(); }
   const RowReader* rows() const override { return reports_->rows(); }
 
-  nlohmann::json save() const override {
-    nlohmann::json state = reports_->save();
-    state["lines"] = table_.beginning();
-    return state;
+  void save(ByteWriter& state) const override {
+    state(table_.beginning());
+    reports_->save(state);
   }
-  void restore(const nlohmann::json& state) override {
-    for (const std::string line : state.at("lines")) table_.read({.text = line});
+  void restore(ByteReader& state) override {
+    std::vector<std::string> lines;
+    state(lines);
+    for (const std::string& line : lines) table_.read({.text = line});
     reports_->restore(state);
   }
 
