@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
+#include <utility>
 
 #include "base/ascii_text.hpp"
 #include "formats/fields/line_text.hpp"
-#include "formats/recordings/recording_kinds.hpp"
 #include "formats/tables/column_names.hpp"
 
 namespace kinesphere::program {
@@ -34,96 +33,92 @@ constexpr std::string_view molecules =
     "trjconv -pbc nojump writes";
 
 struct FileKind {
-  std::vector<std::string_view> begins;  ///< the bytes with which a file of it begins: one of these
+  std::array<std::string_view, 7> begins;  ///< the bytes with which a file of it begins: one of these
   std::string_view is;
 };
 
 /// Files that begin with certain bytes. Line ends are \n.
-const std::vector<FileKind>& kinds_by_bytes() {
-  static const std::vector<FileKind> kinds{
-      {{"\xFF\xFE\0\0"sv, "\0\0\xFE\xFF"sv}, "text in UTF-32: convert it with iconv -f UTF-32 -t UTF-8"},
-      {{"\xFF\xFE"sv, "\xFE\xFF"sv}, utf_16},
-      {{"PK\3\4"sv}, "a zip archive (or .xlsx, .kmz, .npz): unpack it, or write the sheet as CSV"},
-      {{"PK\5\6"sv}, "an empty zip archive"},
-      {{"7z\xBC\xAF"sv}, "a 7z archive: unpack it first"},
-      {{"\xFD\x37zXZ"sv}, "compressed by xz: unpack it with xz -d, or use gzip"},
-      {{"\x28\xB5\x2F\xFD"sv}, "compressed by zstd: unpack it with zstd -d, or use gzip"},
-      {{"\x1F\x8B"sv}, "compressed by gzip twice: unpack it with gzip -d first"},
-      {{"BZh"sv}, "compressed by bzip2: unpack it with bzip2 -d, or use gzip"},
-      {{"\xD0\xCF\x11\xE0"sv}, "a sheet of old Excel (.xls): save it as CSV"},
-      {{"Obj\1"sv}, "an Avro file: write it as CSV"},
-      {{"RDX"sv}, "data of R: write it as CSV, with write.csv"},
-      {{"PAR1"sv}, "a Parquet file: write it as CSV, with pandas: read_parquet(...).to_csv(...)"},
-      {{"ARROW1"sv}, "an Arrow file: write it as CSV, with pandas: read_feather(...).to_csv(...)"},
-      {{"\x89HDF"sv}, "an HDF5 file (or .mat of version 7.3, or NetCDF 4): write its table as CSV"},
-      {{"CDF\1"sv, "CDF\2"sv}, "a NetCDF file: write its table as CSV"},
-      {{"MATLAB"sv}, "a .mat file: write its table as CSV, with writetable"},
-      {{"\x93NUMPY"sv}, "a NumPy file: write it as CSV, with numpy.savetxt"},
-      {{"SQLite format 3"sv}, "a SQLite database: write its table as CSV, with sqlite3 -csv -header"},
-      {{"ATOM  "sv, "HETATM"sv, "CRYST1"sv, "TITLE     "sv, "REMARK "sv, "MODEL  "sv, "HEADER    "sv},
-       molecules},
-      {{"#ROSBAG"sv}, "a ROS bag: write the topic as CSV"},
-      {{"ULog\x01\x12\x35"sv}, "a PX4 log: write it as CSV, with ulog2csv"},
-      {{"\x1A\x31"sv, "\x1A\x32"sv, "\x1A\x33"sv}, mode_s},
-      {{"%PDF"sv}, "a PDF file"},
-      {{"\xD4\xC3\xB2\xA1"sv, "\n\r\r\n"sv},
-       "a recording of a network (pcap): write what it carries as text, with tshark"},
-      {{"\x80\4"sv, "\x80\5"sv},
-       "a pickle of Python: write it as CSV, with pandas: read_pickle(...).to_csv(...)"},
-      {{"version https://git-lfs"sv},
-       "what Git keeps in place of a large file: fetch that with git lfs pull"},
-      {{"{'"sv}, "dictionaries as Python prints them: write each with json.dumps"},
-      {{"{\\rtf"sv}, "a document of RTF: save it as text"},
-      {{"\0\0\x07\xCB"sv, "\0\0\x07\xC9"sv, "T\0\0\0CORD"sv},
-       "a trajectory of molecular dynamics (XTC, TRR or DCD): write it as XYZ, with MDAnalysis: "
-       "Universe(...).atoms.write('atoms.xyz', frames='all')"},
-      {{"\x02P"sv}, "a C3D file of motion capture: write it as CSV, with ezc3d or Mokka"},
-      {{"\xB5\x62"sv}, "raw data of a u-blox receiver: write it as NMEA or GPX, with gpsbabel or RTKLIB"},
-      {{"\x89MCAP0"sv}, "a log of ROS 2 (MCAP): write the topic as CSV"},
-      {{"\0\0\x27\x0A"sv}, "a shapefile: write its points as CSV, with ogr2ogr -lco GEOMETRY=AS_XY"},
-      {{"stk.v."sv}, "an ephemeris of STK: write its rows as CSV, with columns id, time, x, y, z"},
-      {{"#aP"sv, "#cP"sv, "#dP"sv}, "an ephemeris (SP3): write it as CSV, with columns id, time, x, y, z"},
-      {{"FMT, 128,"sv, "\xA3\x95"sv},
-       "an ArduPilot log: write its messages GPS as CSV, with mavlogdump.py --types GPS --format csv"},
-      {{"# vtk DataFile"sv}, vtk},
-      {{"\xDF\x65\xDF\x65"sv}, "a trajectory of HOOMD (GSD): write it as XYZ, with OVITO, or as CSV"},
-      {{"---\ncreator: LAMMPS"sv}, "a dump of LAMMPS in YAML: write it with dump_style custom, as text"},
-      {{"HIERARCHY"sv}, "motion capture as angles of joints (BVH): write positions as CSV, with Blender"},
-      {{"#!OML:ASF"sv, ":FULLY-SPECIFIED"sv},
-       "motion capture as angles of joints (AMC): write positions as CSV, with Blender"},
-      {{"Trajectories\n"sv, "PathFileType\t"sv, "NO_OF_FRAMES\t"sv, "Format Version,1."sv},
-       "motion capture with columns of each marker (Vicon, TRC, Qualisys or OptiTrack): make a table with "
-       "the "
-       "line of pandas in docs/tables.md"},
-      {{"$VISION"sv, "$VEHICLE:"sv, "$PEDESTRIAN:"sv},
-       "a record of Vissim: make a table with the line of pandas in docs/tables.md"},
-      {{"track_id; type; traveled_d; avg_speed; "sv},
-       "a table of pNEUMA, with many places in a row: make a table with the line of pandas in "
-       "docs/tables.md"},
-      {{"OziExplorer Track Point File"sv},
-       "a track of OziExplorer (PLT): write it as GPX, with gpsbabel -i ozi -f FILE -o gpx -F FILE.gpx"},
-      {{"Geolife trajectory"sv},
-       "a walk of GeoLife (PLT): make a table with the line of pandas in docs/tables.md"},
-      {{"Timestamp,UTC,Callsign,Position,Altitude,Speed,Direction\n"sv},
-       "a flight of Flightradar24, whose places are one field: split it, with the line of pandas in "
-       "docs/tables.md"},
-      {{"\"Number of header lines:"sv, "Number of header lines:"sv},
-       "an export of EthoVision, with lines about the trial: leave them out, with the line of pandas in "
-       "docs/tables.md"},
-      {{"CCSDS_OPM_VERS"sv}, "one state of an orbit (OPM), no path: propagate it, and write an OEM or CSV"},
-      {{"MTrackJ "sv}, "tracks of MTrackJ: write them as CSV, with Measure, which shows a table of points"},
-      {{"*******************************************************************************\nEphemeris / "sv},
-       "an ephemeris of JPL (HORIZONS): write its rows between $$SOE and $$EOE as CSV, with columns id, "
-       "time, "
-       "x, y, z"},
-      {{"Type,Local Number,Message,Field 1,Value 1,Units 1"sv},
-       "a FIT file as its SDK prints it: write the .fit file as GPX, with gpsbabel -i garmin_fit -f FILE -o "
-       "gpx -F FILE.gpx"},
-      {{"header: \n"sv, "header:\n"sv},
-       "messages as rostopic echo prints them: write a table, with rostopic echo -p (ros2 topic echo --csv)"},
-  };
-  return kinds;
-}
+constexpr FileKind kinds_by_bytes[] = {
+    {{"\xFF\xFE\0\0"sv, "\0\0\xFE\xFF"sv}, "text in UTF-32: convert it with iconv -f UTF-32 -t UTF-8"},
+    {{"\xFF\xFE"sv, "\xFE\xFF"sv}, utf_16},
+    {{"PK\3\4"sv}, "a zip archive (or .xlsx, .kmz, .npz): unpack it, or write the sheet as CSV"},
+    {{"PK\5\6"sv}, "an empty zip archive"},
+    {{"7z\xBC\xAF"sv}, "a 7z archive: unpack it first"},
+    {{"\xFD\x37zXZ"sv}, "compressed by xz: unpack it with xz -d, or use gzip"},
+    {{"\x28\xB5\x2F\xFD"sv}, "compressed by zstd: unpack it with zstd -d, or use gzip"},
+    {{"\x1F\x8B"sv}, "compressed by gzip twice: unpack it with gzip -d first"},
+    {{"BZh"sv}, "compressed by bzip2: unpack it with bzip2 -d, or use gzip"},
+    {{"\xD0\xCF\x11\xE0"sv}, "a sheet of old Excel (.xls): save it as CSV"},
+    {{"Obj\1"sv}, "an Avro file: write it as CSV"},
+    {{"RDX"sv}, "data of R: write it as CSV, with write.csv"},
+    {{"PAR1"sv}, "a Parquet file: write it as CSV, with pandas: read_parquet(...).to_csv(...)"},
+    {{"ARROW1"sv}, "an Arrow file: write it as CSV, with pandas: read_feather(...).to_csv(...)"},
+    {{"\x89HDF"sv}, "an HDF5 file (or .mat of version 7.3, or NetCDF 4): write its table as CSV"},
+    {{"CDF\1"sv, "CDF\2"sv}, "a NetCDF file: write its table as CSV"},
+    {{"MATLAB"sv}, "a .mat file: write its table as CSV, with writetable"},
+    {{"\x93NUMPY"sv}, "a NumPy file: write it as CSV, with numpy.savetxt"},
+    {{"SQLite format 3"sv}, "a SQLite database: write its table as CSV, with sqlite3 -csv -header"},
+    {{"ATOM  "sv, "HETATM"sv, "CRYST1"sv, "TITLE     "sv, "REMARK "sv, "MODEL  "sv, "HEADER    "sv},
+     molecules},
+    {{"#ROSBAG"sv}, "a ROS bag: write the topic as CSV"},
+    {{"ULog\x01\x12\x35"sv}, "a PX4 log: write it as CSV, with ulog2csv"},
+    {{"\x1A\x31"sv, "\x1A\x32"sv, "\x1A\x33"sv}, mode_s},
+    {{"%PDF"sv}, "a PDF file"},
+    {{"\xD4\xC3\xB2\xA1"sv, "\n\r\r\n"sv},
+     "a recording of a network (pcap): write what it carries as text, with tshark"},
+    {{"\x80\4"sv, "\x80\5"sv},
+     "a pickle of Python: write it as CSV, with pandas: read_pickle(...).to_csv(...)"},
+    {{"version https://git-lfs"sv}, "what Git keeps in place of a large file: fetch that with git lfs pull"},
+    {{"{'"sv}, "dictionaries as Python prints them: write each with json.dumps"},
+    {{"{\\rtf"sv}, "a document of RTF: save it as text"},
+    {{"\0\0\x07\xCB"sv, "\0\0\x07\xC9"sv, "T\0\0\0CORD"sv},
+     "a trajectory of molecular dynamics (XTC, TRR or DCD): write it as XYZ, with MDAnalysis: "
+     "Universe(...).atoms.write('atoms.xyz', frames='all')"},
+    {{"\x02P"sv}, "a C3D file of motion capture: write it as CSV, with ezc3d or Mokka"},
+    {{"\xB5\x62"sv}, "raw data of a u-blox receiver: write it as NMEA or GPX, with gpsbabel or RTKLIB"},
+    {{"\x89MCAP0"sv}, "a log of ROS 2 (MCAP): write the topic as CSV"},
+    {{"\0\0\x27\x0A"sv}, "a shapefile: write its points as CSV, with ogr2ogr -lco GEOMETRY=AS_XY"},
+    {{"stk.v."sv}, "an ephemeris of STK: write its rows as CSV, with columns id, time, x, y, z"},
+    {{"#aP"sv, "#cP"sv, "#dP"sv}, "an ephemeris (SP3): write it as CSV, with columns id, time, x, y, z"},
+    {{"FMT, 128,"sv, "\xA3\x95"sv},
+     "an ArduPilot log: write its messages GPS as CSV, with mavlogdump.py --types GPS --format csv"},
+    {{"# vtk DataFile"sv}, vtk},
+    {{"\xDF\x65\xDF\x65"sv}, "a trajectory of HOOMD (GSD): write it as XYZ, with OVITO, or as CSV"},
+    {{"---\ncreator: LAMMPS"sv}, "a dump of LAMMPS in YAML: write it with dump_style custom, as text"},
+    {{"HIERARCHY"sv}, "motion capture as angles of joints (BVH): write positions as CSV, with Blender"},
+    {{"#!OML:ASF"sv, ":FULLY-SPECIFIED"sv},
+     "motion capture as angles of joints (AMC): write positions as CSV, with Blender"},
+    {{"Trajectories\n"sv, "PathFileType\t"sv, "NO_OF_FRAMES\t"sv, "Format Version,1."sv},
+     "motion capture with columns of each marker (Vicon, TRC, Qualisys or OptiTrack): make a table with "
+     "the "
+     "line of pandas in docs/tables.md"},
+    {{"$VISION"sv, "$VEHICLE:"sv, "$PEDESTRIAN:"sv},
+     "a record of Vissim: make a table with the line of pandas in docs/tables.md"},
+    {{"track_id; type; traveled_d; avg_speed; "sv},
+     "a table of pNEUMA, with many places in a row: make a table with the line of pandas in "
+     "docs/tables.md"},
+    {{"OziExplorer Track Point File"sv},
+     "a track of OziExplorer (PLT): write it as GPX, with gpsbabel -i ozi -f FILE -o gpx -F FILE.gpx"},
+    {{"Geolife trajectory"sv},
+     "a walk of GeoLife (PLT): make a table with the line of pandas in docs/tables.md"},
+    {{"Timestamp,UTC,Callsign,Position,Altitude,Speed,Direction\n"sv},
+     "a flight of Flightradar24, whose places are one field: split it, with the line of pandas in "
+     "docs/tables.md"},
+    {{"\"Number of header lines:"sv, "Number of header lines:"sv},
+     "an export of EthoVision, with lines about the trial: leave them out, with the line of pandas in "
+     "docs/tables.md"},
+    {{"CCSDS_OPM_VERS"sv}, "one state of an orbit (OPM), no path: propagate it, and write an OEM or CSV"},
+    {{"MTrackJ "sv}, "tracks of MTrackJ: write them as CSV, with Measure, which shows a table of points"},
+    {{"*******************************************************************************\nEphemeris / "sv},
+     "an ephemeris of JPL (HORIZONS): write its rows between $$SOE and $$EOE as CSV, with columns id, "
+     "time, "
+     "x, y, z"},
+    {{"Type,Local Number,Message,Field 1,Value 1,Units 1"sv},
+     "a FIT file as its SDK prints it: write the .fit file as GPX, with gpsbabel -i garmin_fit -f FILE -o "
+     "gpx -F FILE.gpx"},
+    {{"header: \n"sv, "header:\n"sv},
+     "messages as rostopic echo prints them: write a table, with rostopic echo -p (ros2 topic echo --csv)"},
+};
 
 /// XML by its outermost element.
 constexpr std::pair<std::string_view, std::string_view> kinds_of_xml[] = {
@@ -291,12 +286,29 @@ bool is_czml(std::string_view text) {
   return beginning_without(text, " \t\r\n").starts_with("[{\"id\":\"document\"");
 }
 
+std::string_view root_element(std::string_view text) {
+  for (;;) {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    if (!text.starts_with('<')) return {};
+    const bool is_comment = text.starts_with("<!--");
+    if (!is_comment && !text.starts_with("<?") && !text.starts_with("<!")) break;
+    // A document type may have declarations in brackets.
+    const bool has_declarations = !is_comment && text.find('[') < text.find('>');
+    const std::string_view end = is_comment ? "-->" : has_declarations ? "]>" : ">";
+    text.remove_prefix(std::min(text.find(end), text.size() - end.size()) + end.size());
+  }
+  text.remove_prefix(1);
+  const std::string_view name = text.substr(0, text.find_first_of(" \t\r\n/<>"));
+  return name.substr(name.rfind(':') + 1);
+}
+
 std::string other_file_kind(std::string_view beginning) {
   if (beginning.empty()) return {};
   const std::string with_line_feeds = beginning_without(beginning, "\r");
-  for (const FileKind& kind : kinds_by_bytes())
-    for (const std::string_view begin : kind.begins)
-      if (beginning.starts_with(begin) || with_line_feeds.starts_with(begin)) return std::string(kind.is);
+  for (const auto& [begins, is] : kinds_by_bytes)
+    for (const std::string_view begin : begins)
+      if (!begin.empty() && (beginning.starts_with(begin) || with_line_feeds.starts_with(begin)))
+        return std::string(is);
   // Text in UTF-16 may lack its mark.
   if (beginning.size() >= 4 && (beginning[0] == '\0') != (beginning[1] == '\0') &&
       (beginning[0] == '\0') == (beginning[2] == '\0') && (beginning[1] == '\0') == (beginning[3] == '\0'))

@@ -13,6 +13,10 @@ bool is_columnar_json(std::string_view beginning);
 /// True for a document of CZML, for CesiumJS.
 bool is_czml(std::string_view beginning);
 
+/// Returns the name of the outermost element of XML, without a prefix; empty for other text, and where it
+/// comes later than this beginning.
+std::string_view root_element(std::string_view text);
+
 /// Returns what the file is and what to do, for the end of a sentence: "a zip archive: unpack it first".
 /// Empty for a text that may be a table. `beginning` is that of the file; a few hundred bytes are enough.
 std::string other_file_kind(std::string_view beginning);

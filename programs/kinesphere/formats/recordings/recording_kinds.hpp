@@ -58,8 +58,4 @@ bool is_json_list(std::string_view text);
 /// An object in each line.
 bool are_json_lines(std::string_view text);
 
-/// Returns the name of the outermost element of XML, without a prefix; empty for other text, and where it
-/// comes later than this beginning.
-std::string_view root_element(std::string_view text);
-
 }  // namespace kinesphere::program

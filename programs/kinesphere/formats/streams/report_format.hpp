@@ -13,10 +13,20 @@
 #include "formats/streams/source_report.hpp"
 #include "formats/tables/record_cutter.hpp"
 #include "formats/tables/row_splitter.hpp"
-#include "formats/tables/stream_format.hpp"
 #include "formats/tables/table_columns.hpp"
 
 namespace kinesphere::program {
+
+/// Tables are `csv`, and `ais` where their tracks are ships. `json` are JSON records in lines, and
+/// `recording` is what is read as a whole; both have rows of a table. The others are messages.
+enum class StreamFormat { readsb, sbs, opensky, ais, nmea, csv, jsonl, json, recording };
+/// True for what a file shows as a recording, and not as the text of a table.
+constexpr bool is_read_whole(StreamFormat format) {
+  return format == StreamFormat::json || format == StreamFormat::recording;
+}
+constexpr bool is_table(StreamFormat format) {
+  return format == StreamFormat::csv || format == StreamFormat::ais || is_read_whole(format);
+}
 
 /// A stream has nothing that can be used; the message says what was expected, without the stream's name.
 class UnusableStream : public std::runtime_error {
@@ -60,6 +70,12 @@ std::optional<StreamFormat> format_named(std::string_view name, std::string_view
 /// says or, without it, as the text shows; of these recordings come first, then messages, and --columns
 /// implies a table. Nothing if it is ambiguous: a table, or too little of a text.
 std::optional<StreamFormat> format_of_text(std::string_view beginning, const ColumnHints& hints);
+/// Returns the first line that says something, which comments of one column do not: of JSON over several
+/// lines, the lines up to the first with a key. Empty if it has not ended yet.
+std::string_view first_line(std::string_view beginning);
+/// Returns the format of a stream that begins with this text, its first line or a part of it; nothing if it
+/// is ambiguous.
+std::optional<StreamFormat> recognised_format(std::string_view beginning);
 /// Returns the names of all formats of messages and of all presets of tables, separated by |.
 std::string format_names();
 

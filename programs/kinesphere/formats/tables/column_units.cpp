@@ -166,7 +166,7 @@ void ask_for_units_of_craft(const TableHead& head, const TableColumns& columns) 
                     head.file, column_text(head, speed->place),
                     columns_option(columns_text(head, columns, Quantity::speed, ":kt"))));
   const auto craft = std::find_if(head.names.begin(), head.names.end(), [&](const std::string& name) {
-    return is_of_aircraft(name) || is_of_ships(name);
+    return hints_at(name, NameHint::aircraft) || is_of_ships(name);
   });
   if (craft == head.names.end()) return;
   const auto ask = [&](Quantity quantity, std::string_view what, std::string_view unit,
@@ -192,10 +192,11 @@ void find_parts_of_time(const TableHead& head, TableColumns& columns) {
   if (columns.format != "table" && !is_given) return;
   for (std::size_t place = 0; place < head.names.size(); ++place)
     if (are_parts_of_time(name, head.names[place])) columns.nanoseconds = place;
-  const bool is_part = is_part_of_clock(name);
+  const bool is_part = hints_at(name, NameHint::part_of_clock);
   for (std::size_t place = 0; place < head.names.size(); ++place)
     if (place != time->place && place != columns.nanoseconds &&
-        (is_part_of_time(head.names[place]) || (is_part && is_part_of_clock(head.names[place]))))
+        (hints_at(head.names[place], NameHint::part_of_time) ||
+         (is_part && hints_at(head.names[place], NameHint::part_of_clock))))
       throw ProgramError(
           fmt::format("{}: {} may be a part of the time, as {} is: write both as one column of times, "
                       "or say {} to use the latter alone",

@@ -79,7 +79,7 @@ void ask_for_heights(const TableHead& head, const TableColumns& columns) {
     const std::string& name = head.names[place];
     const bool is_known = std::any_of(columns.of.begin(), columns.of.end(),
                                       [&](const auto& column) { return column && column->place == place; });
-    if (is_known || is_height_of_box(head, name) || !looks_like_height(name)) continue;
+    if (is_known || is_height_of_box(head, name) || !hints_at(name, NameHint::height)) continue;
     if (heights.empty()) first = place;
     heights.push_back(fmt::format("'{}'", name));
   }
@@ -144,7 +144,7 @@ void understand_places(const TableHead& head, const ColumnHints& hints, TableCol
   const auto is_angle = [&](const std::optional<Column>& column, Quantity angle) {
     if (!column || head.names.empty()) return false;
     const std::string& name = head.names[column->place];
-    if (looks_like_angle(name, angle)) return true;
+    if (hints_at(name, angle == Quantity::longitude ? NameHint::longitude : NameHint::latitude)) return true;
     const auto meaning = meaning_of(name);
     return meaning && (meaning->quantity == angle || unit_named(meaning->unit, Measure::angle).has_value());
   };

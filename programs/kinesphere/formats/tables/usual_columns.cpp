@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <iterator>
+#include <utility>
 
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
@@ -107,7 +108,7 @@ class UsualColumns {
     if (example[Quantity::longitude] && example[Quantity::x]) {
       example[Quantity::x] = example[Quantity::y] = example[Quantity::z] = std::nullopt;
       for (std::size_t place = head_.names.size(); place-- > 0;)
-        if (plain_name(head_.names[place]) != "z" && looks_like_height(head_.names[place]))
+        if (plain_name(head_.names[place]) != "z" && hints_at(head_.names[place], NameHint::height))
           example[Quantity::z] = Column{.place = place};
     }
     // Whole seconds have their rest in another column.
@@ -167,7 +168,7 @@ bool is_name_of_body(const std::string& column, const std::string& body) {
   if (column.size() <= body.size()) return false;
   const auto is_name = [](std::string_view name) {
     const auto meaning = meaning_of(name);
-    return (meaning && meaning->quantity == Quantity::id) || may_be_id(name);
+    return (meaning && meaning->quantity == Quantity::id) || hints_at(name, NameHint::id);
   };
   const std::string_view begin = std::string_view(column).substr(0, body.size());
   if (same_name(begin, body)) {
@@ -207,7 +208,7 @@ void ask_about_names(const TableHead& head, const std::vector<TableColumns::Body
 bool has_likely_id(const TableHead& head) {
   return std::any_of(head.names.begin(), head.names.end(), [](const std::string& name) {
     const auto meaning = meaning_of_ending(name);
-    return meaning && meaning->quantity == Quantity::id && !is_scene(name);
+    return meaning && meaning->quantity == Quantity::id && !hints_at(name, NameHint::scene);
   });
 }
 
@@ -232,9 +233,10 @@ void add_likely_columns(const TableHead& head, TableColumns& columns) {
   for (std::size_t place = 0; place < head.names.size(); ++place) {
     if (is_of_no_place(axis_and_body(head.names[place]).body)) continue;
     auto meaning = meaning_of_ending(head.names[place]);
-    for (const Quantity angle : {Quantity::longitude, Quantity::latitude})
-      if (!meaning && looks_like_angle(head.names[place], angle)) meaning = ColumnMeaning{angle, ""};
-    if (!meaning && may_be_id(head.names[place])) meaning = ColumnMeaning{Quantity::id, ""};
+    for (const auto& [hint, quantity] :
+         {std::pair(NameHint::longitude, Quantity::longitude),
+          std::pair(NameHint::latitude, Quantity::latitude), std::pair(NameHint::id, Quantity::id)})
+      if (!meaning && hints_at(head.names[place], hint)) meaning = ColumnMeaning{quantity, ""};
     if (meaning && is_position(meaning->quantity))
       likely[static_cast<std::size_t>(meaning->quantity)].push_back(place);
   }
