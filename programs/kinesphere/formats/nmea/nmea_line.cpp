@@ -76,10 +76,9 @@ AisSentence sentence_of(std::string_view content) {
   const auto of = digit_in(fields[1], '1', '9'), number = digit_in(fields[2], '1', '9');
   const auto fill_bits = digit_in(fields[6], '0', '5');
   if (!of || !number || *number > *of)
-    throw MalformedRecord(
-        fmt::format("expected the number of sentences and that of this one (fields 2 and 3), but got '{}' "
-                    "and '{}'",
-                    fields[1], fields[2]));
+    throw MalformedRecord(fmt::format(
+        "expected the number of sentences and that of this one (fields 2 and 3), but got '{}' and '{}'",
+        fields[1], fields[2]));
   if (!fill_bits)
     throw MalformedRecord(fmt::format("expected 0 to 5 fill bits (field 7), but got '{}'", fields[6]));
   if (fields[3].size() > 1 || fields[4].size() > 1)

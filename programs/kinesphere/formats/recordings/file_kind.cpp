@@ -89,14 +89,12 @@ constexpr FileKind kinds_by_bytes[] = {
     {{"#!OML:ASF"sv, ":FULLY-SPECIFIED"sv},
      "motion capture as angles of joints (AMC): write positions as CSV, with Blender"},
     {{"Trajectories\n"sv, "PathFileType\t"sv, "NO_OF_FRAMES\t"sv, "Format Version,1."sv},
-     "motion capture with columns of each marker (Vicon, TRC, Qualisys or OptiTrack): make a table with "
-     "the "
+     "motion capture with columns of each marker (Vicon, TRC, Qualisys or OptiTrack): make a table with the "
      "line of pandas in docs/tables.md"},
     {{"$VISION"sv, "$VEHICLE:"sv, "$PEDESTRIAN:"sv},
      "a record of Vissim: make a table with the line of pandas in docs/tables.md"},
     {{"track_id; type; traveled_d; avg_speed; "sv},
-     "a table of pNEUMA, with many places in a row: make a table with the line of pandas in "
-     "docs/tables.md"},
+     "a table of pNEUMA, with many places in a row: make a table with the line of pandas in docs/tables.md"},
     {{"OziExplorer Track Point File"sv},
      "a track of OziExplorer (PLT): write it as GPX, with gpsbabel -i ozi -f FILE -o gpx -F FILE.gpx"},
     {{"Geolife trajectory"sv},
@@ -110,8 +108,7 @@ constexpr FileKind kinds_by_bytes[] = {
     {{"CCSDS_OPM_VERS"sv}, "one state of an orbit (OPM), no path: propagate it, and write an OEM or CSV"},
     {{"MTrackJ "sv}, "tracks of MTrackJ: write them as CSV, with Measure, which shows a table of points"},
     {{"*******************************************************************************\nEphemeris / "sv},
-     "an ephemeris of JPL (HORIZONS): write its rows between $$SOE and $$EOE as CSV, with columns id, "
-     "time, "
+     "an ephemeris of JPL (HORIZONS): write its rows between $$SOE and $$EOE as CSV, with columns id, time, "
      "x, y, z"},
     {{"Type,Local Number,Message,Field 1,Value 1,Units 1"sv},
      "a FIT file as its SDK prints it: write the .fit file as GPX, with gpsbabel -i garmin_fit -f FILE -o "
@@ -127,8 +124,8 @@ constexpr std::pair<std::string_view, std::string_view> kinds_of_xml[] = {
     {"kml",
      "KML: write its tracks with times (gx:Track) as GPX, with gpsbabel -i kml -f FILE -o gpx -F FILE.gpx"},
     {"events",
-     "events of MATSim, which say links and no places: write positions as CSV, with Via, or the "
-     "end of each link with its time"},
+     "events of MATSim, which say links and no places: write positions as CSV, with Via, or the end of each "
+     "link with its time"},
     {"oem", "an ephemeris (OEM): write its rows as CSV, with columns id, time, x, y, z"},
     {"TrackMate", "a file of TrackMate: export the spots of its tracks as CSV"},
     {"Tracks",
@@ -247,11 +244,10 @@ std::string kind_of_json(std::string_view text) {
   const bool is_json = text.starts_with("{") ||
                        (text.starts_with("[") &&
                         text.find_first_of("{[\"0123456789-]", 1) == text.find_first_not_of(" \t\r\n", 1));
-  return is_json
-             ? "JSON of none of the formats that are read (docs/tables.md): write it as CSV, for example "
-               "with jq -r '[.id,.time,.x,.y]|@csv'; jq -c . writes records over several lines, or several "
-               "in one, each in a line"
-             : "";
+  return is_json ? "JSON of none of the formats that are read (docs/tables.md): write it as CSV, for example "
+                   "with jq -r '[.id,.time,.x,.y]|@csv'; jq -c . writes records over several lines, or "
+                   "several in one, each in a line"
+                 : "";
 }
 
 }  // namespace

@@ -68,10 +68,10 @@ class GpsReader {
     }
     std::vector<LoggedFix> fixes = whole_fixes();
     if (fixes.empty())
-      throw ProgramError(fmt::format(
-          "{}: expected sentences RMC, GGA or GNS with a valid position, but of those that it has {} "
-          "have a wrong checksum and {} have no position",
-          file_, damaged_, invalid_));
+      throw ProgramError(
+          fmt::format("{}: expected sentences RMC, GGA or GNS with a valid position, but of those that it "
+                      "has {} have a wrong checksum and {} have no position",
+                      file_, damaged_, invalid_));
     return table_of(fixes);
   }
 
@@ -207,10 +207,8 @@ class GpsReader {
     const auto first = std::ranges::find_if(own, [&](std::size_t k) { return all[k].day.has_value(); });
     const bool has_days = first != own.end();
     if (std::exchange(has_days_, has_days).value_or(has_days) != has_days)
-      throw ProgramError(
-          fmt::format("{}: expected a date (RMC or ZDA) for all receivers or for none, unlike "
-                      "for {}",
-                      file_, id));
+      throw ProgramError(fmt::format(
+          "{}: expected a date (RMC or ZDA) for all receivers or for none, unlike for {}", file_, id));
     constexpr double half_a_day = 43'200.0;
     std::chrono::sys_days day = has_days ? *all[*first].day : std::chrono::sys_days{};
     if (has_days && all[own.front()].clock.second > all[*first].clock.second + half_a_day)

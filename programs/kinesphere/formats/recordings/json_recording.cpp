@@ -25,16 +25,14 @@ RowTable table_with_positions(JsonRows rows, const std::string& file, bool is_li
   });
   const std::string& list = rows.long_list();
   if (!list.empty() && !has_position && rows.has_several_lists())
-    throw ProgramError(
-        fmt::format("{}: expected records with a position each, but they are in several lists, such as '{}': "
-                    "if each is of "
-                    "one body, say jq -c 'to_entries[] | {{id: .key}} + .value[]' FILE | kinesphere tracks -",
-                    file, list));
+    throw ProgramError(fmt::format(
+        "{}: expected records with a position each, but they are in several lists, such as '{}': if each is "
+        "of one body, say jq -c 'to_entries[] | {{id: .key}} + .value[]' FILE | kinesphere tracks -",
+        file, list));
   if (!list.empty() && !has_position)
     throw ProgramError(
         fmt::format("{0}: expected records with a position each, but they are in a list '{1}': say jq -c "
-                    "'{2}. + .{1}[] | "
-                    "del(.{1})' FILE | kinesphere tracks -",
+                    "'{2}. + .{1}[] | del(.{1})' FILE | kinesphere tracks -",
                     file, list, is_list ? ".[] | " : ""));
   return std::move(rows.table);
 }

@@ -206,8 +206,8 @@ class LammpsReader {
                                      file_, lines_.line()));
     if (is_tilted_ && (is_scaled || !is_unwrapped))
       throw ProgramError(
-          fmt::format("{}:{}: expected unwrapped positions, xu yu zu, in a tilted box: dump these, "
-                      "as in: dump 1 all custom 100 FILE id xu yu zu",
+          fmt::format("{}:{}: expected unwrapped positions, xu yu zu, in a tilted box: dump these, as in: "
+                      "dump 1 all custom 100 FILE id xu yu zu",
                       file_, lines_.line()));
     for (std::size_t k = 0; k < atoms_; ++k) {
       const auto line = lines_.next();

@@ -12,7 +12,6 @@
 #include "base/ascii_text.hpp"
 #include "base/program_error.hpp"
 #include "formats/recordings/recording_kinds.hpp"
-#include "formats/recordings/track_labels.hpp"
 #include "formats/tables/table_columns.hpp"
 
 #ifdef KINESPHERE_WITH_EXPAT
@@ -110,7 +109,6 @@ RowTable read_gpx(const RecordingText& recording) {
   enum GpxColumn : std::size_t { of_time = 1, of_height = 4 };
   RowTable table("GPX", {"id", "time", "lon", "lat", "ele"});
   std::string track;
-  TrackLabels labels;
   std::size_t tracks = 0;
   bool is_in_track = false, is_in_point = false, has_times = false;
   const auto begin = [&](const XmlElement& element) {
@@ -130,7 +128,7 @@ RowTable read_gpx(const RecordingText& recording) {
       table.set(of_time, content);
       has_times = has_times || !content.empty();
     }
-    if (is_in_track && !is_in_point && name == "name") track = labels.label(content);
+    if (is_in_track && !is_in_point && name == "name") track = table.label(content);
   };
   read_xml(recording, "GPX", {begin, end});
   if (!has_times)

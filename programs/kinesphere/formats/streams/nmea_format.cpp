@@ -160,18 +160,16 @@ class NmeaFormat final : public RememberingFormat<NmeaFormat> {
     sink.refuse(line, "expected a time of receipt, in this line or in others around it");
   }
   [[noreturn]] void fail_without_times() const {
-    const std::string before =
-        before_first_.empty()
-            ? ""
-            : fmt::format(
-                  " that is read (before the first stands {}, no date and clock as in 2024-01-31T12:30:15Z "
-                  "and no seconds since 1970)",
-                  shown_field(before_first_));
+    const std::string before = before_first_.empty()
+                                   ? ""
+                                   : fmt::format(
+                                         " that is read (before the first stands {}, no date and clock as in "
+                                         "2024-01-31T12:30:15Z and no seconds since 1970)",
+                                         shown_field(before_first_));
     throw UnusableStream(fmt::format(
         "expected the time at which each sentence was received, but there is none{}: record it in a tag "
-        "block "
-        "(\\c:1700000000*5F\\!AIVDM...) or before the sentence; what comes from a receiver right now can be "
-        "read from udp://, a device, or standard input with --clock arrival",
+        "block (\\c:1700000000*5F\\!AIVDM...) or before the sentence; what comes from a receiver right now "
+        "can be read from udp://, a device, or standard input with --clock arrival",
         before));
   }
 

@@ -286,10 +286,10 @@ class ReportsOfRows final : public RowReports {
   void ask_about_row_numbers() const {
     const auto& id = reader_->columns()[Quantity::id];
     if (!id || checked_ < 3 || !counts_rows_ || !has_later_ || reader_->filter().mentions(id->place)) return;
-    throw UnusableStream(fmt::format(
-        "each row has an id of its own in column {}, up to {}, as a row number is: say id=... with "
-        "--columns, or keep it with --where 'id != none'",
-        id->place + 1, *last_number_));
+    throw UnusableStream(
+        fmt::format("each row has an id of its own in column {}, up to {}, as a row number is: say id=... "
+                    "with --columns, or keep it with --where 'id != none'",
+                    id->place + 1, *last_number_));
   }
   /// Asks about lengths that may be degrees.
   void ask_about_degrees() const {

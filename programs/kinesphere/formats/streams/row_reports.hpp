@@ -34,28 +34,4 @@ class RowReports {
 std::unique_ptr<RowReports> make_row_reports(const TableHead& head, const FormatChoices& choices,
                                              bool is_ais = false, const RowTable* recording = nullptr);
 
-/// Rows whose names of columns are known before, with a head of their own.
-class NamedRows {
- public:
-  NamedRows(const RowTable& table, const FormatChoices& choices)
-      : head_(choices.source), reports_(make_row_reports(head_.head(), choices, false, &table)) {
-    head_.set_separator(',');
-    head_.row({table.names().begin(), table.names().end()});
-  }
-  NamedRows(const NamedRows&) = delete;
-  NamedRows& operator=(const NamedRows&) = delete;
-
-  void read(const std::vector<std::string_view>& fields, std::size_t line, ReportSink& sink) {
-    if (head_.row(fields)) reports_->read(fields, line, sink);
-  }
-  /// Takes the first row of values, of which nothing is reported.
-  void take_first(const std::vector<std::string_view>& fields) { head_.row(fields); }
-  const TableHead& head() const { return head_.head(); }
-  RowReports& reports() const { return *reports_; }
-
- private:
-  TableHeadReader head_;
-  std::unique_ptr<RowReports> reports_;
-};
-
 }  // namespace kinesphere::program

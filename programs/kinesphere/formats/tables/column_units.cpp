@@ -117,8 +117,7 @@ void understand_lengths(const TableHead& head, const ColumnHints& hints, TableCo
     Column& column = *columns[quantity];
     if (unit_is_said && column.has_unit && column.unit != said && measure_of(quantity) == Measure::length)
       throw ProgramError(
-          fmt::format("--unit: expected none, or that of {} of {}, but got {}: {} says it of "
-                      "one column",
+          fmt::format("--unit: expected none, or that of {} of {}, but got {}: {} says it of one column",
                       column_text(head, column.place), head.file, hints.unit,
                       columns_option(fmt::format("{}={}:{}", key_of(quantity),
                                                  column_word(head, column.place), hints.unit))));
@@ -173,11 +172,10 @@ void ask_for_units_of_craft(const TableHead& head, const TableColumns& columns) 
                        std::string_view other) {
     const auto& column = columns[quantity];
     if (!column || column->has_unit || (quantity == Quantity::z && is_of_ships(*craft))) return;
-    throw ProgramError(
-        fmt::format("{}: {} does not say its unit, which for {} (column '{}') may be {} or {}: say "
-                    "{} (or :{})",
-                    head.file, column_text(head, column->place), what, *craft, unit, other,
-                    columns_option(columns_text(head, columns, quantity, fmt::format(":{}", unit))), other));
+    throw ProgramError(fmt::format(
+        "{}: {} does not say its unit, which for {} (column '{}') may be {} or {}: say {} (or :{})",
+        head.file, column_text(head, column->place), what, *craft, unit, other,
+        columns_option(columns_text(head, columns, quantity, fmt::format(":{}", unit))), other));
   };
   ask(Quantity::z, "heights of aircraft", "ft", "m");
   ask(Quantity::speed, "speeds of ships and aircraft", "kt", "m/s");
@@ -198,8 +196,8 @@ void find_parts_of_time(const TableHead& head, TableColumns& columns) {
         (hints_at(head.names[place], NameHint::part_of_time) ||
          (is_part && hints_at(head.names[place], NameHint::part_of_clock))))
       throw ProgramError(
-          fmt::format("{}: {} may be a part of the time, as {} is: write both as one column of times, "
-                      "or say {} to use the latter alone",
+          fmt::format("{}: {} may be a part of the time, as {} is: write both as one column of times, or say "
+                      "{} to use the latter alone",
                       head.file, column_text(head, place), column_text(head, time->place),
                       columns_option(columns_text(head, columns, Quantity::time, is_whole ? ":s" : ""))));
 }

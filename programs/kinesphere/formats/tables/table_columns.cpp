@@ -33,8 +33,8 @@ void require_sizes(const TableHead& head, const TableColumns& columns) {
                     head.file, head.text()));
   if (columns.is_ais)
     throw ProgramError(
-        fmt::format("{}: expected positions of the middle for --sizes, but those of AIS are of the "
-                    "antenna, anywhere on the ship",
+        fmt::format("{}: expected positions of the middle for --sizes, but those of AIS are of the antenna, "
+                    "anywhere on the ship",
                     head.file));
 }
 
@@ -218,8 +218,8 @@ std::string missing_columns_text(const TableHead& head, const TableColumns& colu
   const std::string_view above = "lines above the header have to be left out or begin with #";
   if (head.names.empty())
     return fmt::format(
-        "{}: say --columns id=...,time=...,x=...,y=... with the numbers of its columns, whose "
-        "first row is {} ({})",
+        "{}: say --columns id=...,time=...,x=...,y=... with the numbers of its columns, whose first row is "
+        "{} ({})",
         text, shown_field(fmt::format("{}", fmt::join(head.first, " "))), above);
   constexpr std::size_t fewest = 4;
   TableColumns likely = columns;
@@ -242,8 +242,7 @@ void require_columns(const TableHead& head, const ColumnHints& hints, const Tabl
     if (!hints.columns.empty())
       throw ProgramError(
           fmt::format("--columns: expected id=... (or id=@file), time=... (or frame=...), x=...,y=... (or "
-                      "lon=...,lat=...) and "
-                      "perhaps z=..., but got '{}'",
+                      "lon=...,lat=...) and perhaps z=..., but got '{}'",
                       hints.columns));
     throw ProgramError(missing_columns_text(head, columns));
   }

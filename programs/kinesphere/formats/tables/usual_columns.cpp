@@ -196,9 +196,8 @@ void ask_about_names(const TableHead& head, const std::vector<TableColumns::Body
     const bool is_list =
         list.size() < body.id.size() && list.find_first_of("0123456789.") == std::string::npos;
     throw ProgramError(fmt::format(
-        "{}: '{}' may name another body in each row than '{}' and '{}' of the row before: write "
-        "a row for each "
-        "body{}, or say --format table if it is one and the same in all rows",
+        "{}: '{}' may name another body in each row than '{}' and '{}' of the row before: write a row for "
+        "each body{}, or say --format table if it is one and the same in all rows",
         head.file, *name, head.names[body.x], head.names[body.y],
         is_list ? fmt::format(", with jq -c '(arrays[], objects) | . + .{0}[] | del(.{0})'", list) : ""));
   }
@@ -317,11 +316,11 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
   const bool may_be_corners =
       bodies.size() == 2 && heights == 0 && parse_number(bodies.front().id) && !all_usual;
   if ((!numbered || may_be_corners) && hints.format != "table")
-    throw ProgramError(fmt::format(
-        "{}: {}, {}, {} and {} may be two bodies or {}: say --format table if each such pair is a "
-        "body, else say the columns with --columns",
-        head.file, head.names[bodies[0].x], head.names[bodies[0].y], head.names[bodies[1].x],
-        head.names[bodies[1].y], numbered ? "the corners of boxes" : "parts of one"));
+    throw ProgramError(
+        fmt::format("{}: {}, {}, {} and {} may be two bodies or {}: say --format table if each such pair is "
+                    "a body, else say the columns with --columns",
+                    head.file, head.names[bodies[0].x], head.names[bodies[0].y], head.names[bodies[1].x],
+                    head.names[bodies[1].y], numbered ? "the corners of boxes" : "parts of one"));
   columns.bodies = bodies;
   columns.format = fmt::format("{} {} of columns", bodies.size(), heights == 0 ? "pairs" : "triples");
   const TableColumns::Body& first = columns.bodies.front();
