@@ -24,7 +24,7 @@ constexpr std::string_view mode_s =
     "or aircraft.json";
 constexpr std::string_view vtk =
     "data of VTK: write the points of all steps as CSV, with ParaView: save data, all time steps";
-constexpr std::string_view fit =
+constexpr std::string_view garmin_fit =
     "a FIT file: write it as GPX, with gpsbabel -i garmin_fit -f FILE -o gpx -F FILE.gpx";
 
 // Of these docs/tables.md has a line of Python each.
@@ -315,7 +315,8 @@ std::string other_file_kind(std::string_view beginning) {
   constexpr std::size_t place_of_tar = 257, place_of_fit = 8;
   if (beginning.substr(std::min(place_of_tar, beginning.size())).starts_with("ustar"))
     return "a tar archive: unpack it first";
-  if (beginning.substr(std::min(place_of_fit, beginning.size())).starts_with(".FIT")) return std::string(fit);
+  if (beginning.substr(std::min(place_of_fit, beginning.size())).starts_with(".FIT"))
+    return std::string(garmin_fit);
   if (std::string kind = kind_by_lines(beginning); !kind.empty()) return kind;
   if (beginning.starts_with("\xEF\xBB\xBF")) beginning.remove_prefix(3);
   beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));

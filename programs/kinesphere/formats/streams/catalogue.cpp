@@ -55,7 +55,7 @@ void refuse_table_options(const FormatChoices& choices) {
 }
 
 /// The first kind that a text is counts.
-constexpr RecordingKind kinds[] = {
+constexpr RecordingKind recording_kinds[] = {
     {"a trace of tar1090", is_json_trace, read_json_trace},
     {"GPX", [](std::string_view text) { return root_element(text) == "gpx"; }, read_gpx},
     {"the FCD output of SUMO", [](std::string_view text) { return root_element(text) == "fcd-export"; },
@@ -204,10 +204,10 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
 const RecordingKind* recording_kind_of(std::string_view beginning, const ColumnHints& hints) {
   if (beginning.starts_with("\xEF\xBB\xBF")) beginning.remove_prefix(3);
   const bool is_said = !hints.columns.empty() || hints.format == "json";
-  const auto* const found = std::ranges::find_if(kinds, [&](const RecordingKind& kind) {
+  const auto* const found = std::ranges::find_if(recording_kinds, [&](const RecordingKind& kind) {
     return (kind.is_json_records || hints.format != "table") && kind.is_of_it(beginning);
   });
-  if (found == std::end(kinds)) return nullptr;
+  if (found == std::end(recording_kinds)) return nullptr;
   constexpr std::size_t enough = 4096;
   const bool may_be_messages = found->read == read_json_lines && !is_said;
   return may_be_messages && recognised_format(beginning.substr(0, enough)) ? nullptr : found;
