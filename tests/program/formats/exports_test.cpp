@@ -36,7 +36,8 @@ TEST(Exports, ThatPandasConvertsAreNamed) {
                   "a table of DeepLabCut"),
         std::pair(std::string("scorer,net,net\nindividuals,a,a\nbodyparts,b,b\ncoords,x,y\n0,1,2\n"),
                   "a table of DeepLabCut"),
-        std::pair(std::string("Trajectories\r\n100\r\n,,a,,,b,,\r\n"), "motion capture with columns of each marker"),
+        std::pair(std::string("Trajectories\r\n100\r\n,,a,,,b,,\r\n"),
+                  "motion capture with columns of each marker"),
         std::pair(std::string("PathFileType\t4\t(X/Y/Z)\tx.trc\n"), "motion capture with columns"),
         std::pair(std::string("NO_OF_FRAMES\t40\nNO_OF_MARKERS\t2\n"), "motion capture with columns"),
         std::pair(std::string("Format Version,1.23,Take Name,x\n"), "motion capture with columns"),
@@ -81,15 +82,17 @@ TEST(Exports, WhatLooksLikeARecordingIsNamed) {
         << elements;
   // Records may begin with a time or a list.
   EXPECT_EQ(
-      parse_text("{\"time\":0,\"id\":\"a\",\"x\":1,\"y\":2}\n{\"time\":1,\"id\":\"a\",\"x\":2,\"y\":2}\n").format,
+      parse_text("{\"time\":0,\"id\":\"a\",\"x\":1,\"y\":2}\n{\"time\":1,\"id\":\"a\",\"x\":2,\"y\":2}\n")
+          .format,
       "JSON records");
   EXPECT_EQ(
-      parse_text("{\"position\":[1,2],\"id\":\"a\",\"time\":0}\n{\"position\":[1,2],\"id\":\"a\",\"time\":1}\n",
-            [] {
-              TrackOptions options;
-              options.hints.columns = "id=id,time=time,x=position.0,y=position.1";
-              return options;
-            }())
+      parse_text(
+          "{\"position\":[1,2],\"id\":\"a\",\"time\":0}\n{\"position\":[1,2],\"id\":\"a\",\"time\":1}\n",
+          [] {
+            TrackOptions options;
+            options.hints.columns = "id=id,time=time,x=position.0,y=position.1";
+            return options;
+          }())
           .tracks.size(),
       1u);
 }
