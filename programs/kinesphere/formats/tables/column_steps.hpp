@@ -1,15 +1,25 @@
 // The steps by which find_columns() understands the columns of a table.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "base/program_error.hpp"
 #include "formats/tables/presets.hpp"
 #include "formats/tables/table_columns.hpp"
 
 namespace kinesphere::program {
+
+/// Throws ProgramError that names the table: a question about it, or what is wrong with it.
+template <class... Values>
+[[noreturn]] void refuse(const TableHead& head, fmt::format_string<Values...> text, Values&&... values) {
+  throw ProgramError(fmt::format("{}: {}", head.file, fmt::format(text, std::forward<Values>(values)...)));
+}
 
 // Columns as the option --columns takes them and messages say them: said_columns.cpp.
 

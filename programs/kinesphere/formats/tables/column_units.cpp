@@ -32,11 +32,11 @@ void ask_beside_whole_degrees(const TableHead& head, const TableColumns& columns
                                        std::pair(Quantity::vy, "cm/s"), std::pair(Quantity::vz, "cm/s")}) {
     const auto& column = columns[quantity];
     if (column && !column->has_unit)
-      throw ProgramError(
-          fmt::format("{}: {} does not say its unit, which beside ten-millionths of degrees is mostly {}: "
-                      "say {}, or another unit",
-                      head.file, column_text(head, column->place), unit,
-                      columns_option(columns_text(head, columns, quantity, fmt::format(":{}", unit)))));
+      refuse(head,
+             "{} does not say its unit, which beside ten-millionths of degrees is mostly {}: say {}, or "
+             "another unit",
+             column_text(head, column->place), unit,
+             columns_option(columns_text(head, columns, quantity, fmt::format(":{}", unit))));
   }
 }
 
@@ -94,9 +94,8 @@ std::string unit_of_column(const TableHead& head, std::size_t place, Quantity qu
   if (unit.size() == trimmed(text).size() && !has_plain_units(head)) return {};
   // A time in a unit of length is a mistake that some programs make in all files.
   if (quantity == Quantity::time || is_unit(unit)) return {};
-  throw ProgramError(
-      fmt::format("{}: {} is in '{}', which is no known unit: say its unit with --columns, as {}={}:m",
-                  head.file, column_text(head, place), unit, key_of(quantity), column_word(head, place)));
+  refuse(head, "{} is in '{}', which is no known unit: say its unit with --columns, as {}={}:m",
+         column_text(head, place), unit, key_of(quantity), column_word(head, place));
 }
 
 void take_unit_of_column(const TableHead& head, Quantity quantity, Column& column) {
@@ -130,21 +129,18 @@ void understand_lengths(const TableHead& head, const ColumnHints& hints, TableCo
     // Where lengths are metres, speeds are metres a second.
     if (said == 1.0 && measure_of(quantity) == Measure::speed && !needs_unit) column.has_unit = true;
     if (!column.has_unit && needs_unit)
-      throw ProgramError(fmt::format("{}: {} does not say its unit: say {}, or another unit ({})", head.file,
-                                     column_text(head, column.place),
-                                     columns_option(columns_text(head, columns, quantity, ":kt")),
-                                     unit_list(Measure::speed)));
+      refuse(head, "{} does not say its unit: say {}, or another unit ({})", column_text(head, column.place),
+             columns_option(columns_text(head, columns, quantity, ":kt")), unit_list(Measure::speed));
     (column.has_unit ? with : without) = (column.has_unit ? with : without).value_or(quantity);
   }
   // Heights and speeds of places on the earth are metres and seconds.
   const bool zone = hints.positions.starts_with("utm");
   columns.in_metres = columns.geographic || zone || with.has_value();
   if (columns.geographic || !with || !without) return;
-  throw ProgramError(fmt::format("{}: {} does not say its unit, but {} does: say {}={}:UNIT with --columns{}",
-                                 head.file, column_text(head, columns[*without]->place),
-                                 column_text(head, columns[*with]->place), key_of(*without),
-                                 column_word(head, columns[*without]->place),
-                                 measure_of(*without) == Measure::length ? ", or --unit" : ""));
+  refuse(head, "{} does not say its unit, but {} does: say {}={}:UNIT with --columns{}",
+         column_text(head, columns[*without]->place), column_text(head, columns[*with]->place),
+         key_of(*without), column_word(head, columns[*without]->place),
+         measure_of(*without) == Measure::length ? ", or --unit" : "");
 }
 
 void ask_for_units_of_craft(const TableHead& head, const TableColumns& columns) {
@@ -159,11 +155,10 @@ void ask_for_units_of_craft(const TableHead& head, const TableColumns& columns) 
   };
   const auto& speed = columns[Quantity::speed];
   if (speed && !speed->has_unit && has("fixtime") && has("deviceid"))
-    throw ProgramError(
-        fmt::format("{}: {} does not say its unit, which is kt in positions of Traccar (fixTime, deviceId): "
-                    "say {} (or :m/s)",
-                    head.file, column_text(head, speed->place),
-                    columns_option(columns_text(head, columns, Quantity::speed, ":kt"))));
+    refuse(
+        head,
+        "{} does not say its unit, which is kt in positions of Traccar (fixTime, deviceId): say {} (or :m/s)",
+        column_text(head, speed->place), columns_option(columns_text(head, columns, Quantity::speed, ":kt")));
   const auto craft = std::find_if(head.names.begin(), head.names.end(), [&](const std::string& name) {
     return hints_at(name, NameHint::aircraft) || is_of_ships(name);
   });
@@ -172,10 +167,9 @@ void ask_for_units_of_craft(const TableHead& head, const TableColumns& columns) 
                        std::string_view other) {
     const auto& column = columns[quantity];
     if (!column || column->has_unit || (quantity == Quantity::z && is_of_ships(*craft))) return;
-    throw ProgramError(fmt::format(
-        "{}: {} does not say its unit, which for {} (column '{}') may be {} or {}: say {} (or :{})",
-        head.file, column_text(head, column->place), what, *craft, unit, other,
-        columns_option(columns_text(head, columns, quantity, fmt::format(":{}", unit))), other));
+    refuse(head, "{} does not say its unit, which for {} (column '{}') may be {} or {}: say {} (or :{})",
+           column_text(head, column->place), what, *craft, unit, other,
+           columns_option(columns_text(head, columns, quantity, fmt::format(":{}", unit))), other);
   };
   ask(Quantity::z, "heights of aircraft", "ft", "m");
   ask(Quantity::speed, "speeds of ships and aircraft", "kt", "m/s");
@@ -195,11 +189,11 @@ void find_parts_of_time(const TableHead& head, TableColumns& columns) {
     if (place != time->place && place != columns.nanoseconds &&
         (hints_at(head.names[place], NameHint::part_of_time) ||
          (is_part && hints_at(head.names[place], NameHint::part_of_clock))))
-      throw ProgramError(
-          fmt::format("{}: {} may be a part of the time, as {} is: write both as one column of times, or say "
-                      "{} to use the latter alone",
-                      head.file, column_text(head, place), column_text(head, time->place),
-                      columns_option(columns_text(head, columns, Quantity::time, is_whole ? ":s" : ""))));
+      refuse(head,
+             "{} may be a part of the time, as {} is: write both as one column of times, or say {} to use "
+             "the latter alone",
+             column_text(head, place), column_text(head, time->place),
+             columns_option(columns_text(head, columns, Quantity::time, is_whole ? ":s" : "")));
 }
 
 void understand_time(const TableHead& head, ColumnUse use, TableColumns& columns) {

@@ -23,8 +23,7 @@ std::optional<std::size_t> column_named(const TableHead& head, std::string_view 
     const auto found = std::find_if(names.begin(), names.end(), matches);
     if (found == names.end()) continue;
     if (std::count_if(names.begin(), names.end(), matches) > 1)
-      throw ProgramError(
-          fmt::format("{}: expected one column '{}', but it has {}", head.file, name, head.text()));
+      refuse(head, "expected one column '{}', but it has {}", name, head.text());
     return static_cast<std::size_t>(found - names.begin());
   }
   return std::nullopt;
@@ -135,11 +134,10 @@ class SaidColumns {
 
   [[noreturn]] void fail(std::string_view key, std::string_view name) const {
     if (preset_ != nullptr)
-      throw ProgramError(fmt::format("{}: expected {} with --format {}, but it has {}", head_.file,
-                                     preset_->header.empty()
-                                         ? fmt::format("{} columns or more", preset_->rules.least_columns)
-                                         : fmt::format("the columns {}", preset_->header),
-                                     preset_->name, head_.text()));
+      refuse(head_, "expected {} with --format {}, but it has {}",
+             preset_->header.empty() ? fmt::format("{} columns or more", preset_->rules.least_columns)
+                                     : fmt::format("the columns {}", preset_->header),
+             preset_->name, head_.text());
     throw ProgramError(fmt::format(
         "--columns: expected '{}' to be a column's name or number from 1 to {}, but got '{}': {} has {}", key,
         head_.columns(), name, head_.file, head_.text()));
@@ -159,8 +157,8 @@ TableColumns said_columns(const TableHead& head, std::string_view list, const Pr
 
 TableColumns preset_columns(const TableHead& head, const Preset& preset) {
   if (head.columns() < preset.rules.least_columns)
-    throw ProgramError(fmt::format("{}: expected {} columns or more with --format {}, but it has {}",
-                                   head.file, preset.rules.least_columns, preset.name, head.text()));
+    refuse(head, "expected {} columns or more with --format {}, but it has {}", preset.rules.least_columns,
+           preset.name, head.text());
   TableColumns columns = said_columns(head, preset.columns, &preset);
   columns.format = preset.title;
   columns.has_own_heights = preset.rules.has_own_heights;

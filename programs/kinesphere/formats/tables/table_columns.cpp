@@ -27,15 +27,14 @@ void keep_used(const ColumnHints& hints, ColumnUse use, TableColumns& columns) {
 
 void require_sizes(const TableHead& head, const TableColumns& columns) {
   if (!columns[Quantity::length] || !columns[Quantity::width])
-    throw ProgramError(
-        fmt::format("{}: expected columns of length and width for --sizes, by their names or --columns "
-                    "length=...,width=...; it has {}",
-                    head.file, head.text()));
+    refuse(head,
+           "expected columns of length and width for --sizes, by their names or --columns "
+           "length=...,width=...; it has {}",
+           head.text());
   if (columns.is_ais)
-    throw ProgramError(
-        fmt::format("{}: expected positions of the middle for --sizes, but those of AIS are of the antenna, "
-                    "anywhere on the ship",
-                    head.file));
+    refuse(head,
+           "expected positions of the middle for --sizes, but those of AIS are of the antenna, anywhere on "
+           "the ship");
 }
 
 /// Finds the columns of a quaternion, where no other says which way bodies point.
@@ -85,12 +84,12 @@ void ask_for_heights(const TableHead& head, const TableColumns& columns) {
   }
   if (heights.empty()) return;
   const std::string others = columns_text(head, columns);
-  throw ProgramError(fmt::format(
-      "{}: {} may be {}: say {} to use {}, or {} to leave heights out", head.file,
+  refuse(
+      head, "{} may be {}: say {} to use {}, or {} to leave heights out",
       heights.size() == 1 ? "column " + heights.front() : fmt::format("columns {}", fmt::join(heights, ", ")),
       heights.size() == 1 ? "a height" : "heights",
       columns_option(fmt::format("{},z={}", others, column_word(head, first))),
-      heights.size() == 1 ? "it" : "one", columns_option(others)));
+      heights.size() == 1 ? "it" : "one", columns_option(others));
 }
 
 /// True for rows of person and frame: frame id x z(=0) y vx vz(=0) vy, without a header. Numbers that are no
@@ -158,10 +157,9 @@ void understand_places(const TableHead& head, const ColumnHints& hints, TableCol
         column_word(head, x->place)));
   const bool one_alone = is_angle(x, Quantity::longitude) != is_angle(y, Quantity::latitude);
   if (x && y && one_alone && !swapped && !said && hints.positions != "plane")
-    throw ProgramError(
-        fmt::format("{}: {} are degrees, but {} are not said to be: say --positions lonlat or plane",
-                    head.file, column_text(head, is_angle(x, Quantity::longitude) ? x->place : y->place),
-                    column_text(head, is_angle(x, Quantity::longitude) ? y->place : x->place)));
+    refuse(head, "{} are degrees, but {} are not said to be: say --positions lonlat or plane",
+           column_text(head, is_angle(x, Quantity::longitude) ? x->place : y->place),
+           column_text(head, is_angle(x, Quantity::longitude) ? y->place : x->place));
   if (x && y && !lon && !lat && hints.positions != "plane" && (said || by_name)) {
     lon = std::exchange(x, std::nullopt);
     lat = std::exchange(y, std::nullopt);
@@ -249,9 +247,7 @@ void require_columns(const TableHead& head, const ColumnHints& hints, const Tabl
   if (has(Quantity::vx) != has(Quantity::vy) ||
       (has(Quantity::course) && !has(Quantity::speed) && !hints.sizes) ||
       (has(Quantity::vx) && has(Quantity::speed)))
-    throw ProgramError(
-        fmt::format("{}: expected either vx and vy or speed and course, or neither: say which with --columns",
-                    head.file));
+    refuse(head, "expected either vx and vy or speed and course, or neither: say which with --columns");
 }
 
 /// Finds columns of N, S, E and W, each behind that of its degrees.

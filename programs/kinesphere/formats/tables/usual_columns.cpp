@@ -118,9 +118,8 @@ class UsualColumns {
     for (const std::size_t place : places(Quantity::id))
       if (plain_name(head_.names[place]).find("track") != std::string::npos)
         example[Quantity::id] = Column{.place = place};
-    throw ProgramError(fmt::format("{}: columns '{}' and '{}' may both be meant: say which, as in {}",
-                                   head_.file, head_.names[one], head_.names[other],
-                                   whole_columns_option(head_, example)));
+    refuse(head_, "columns '{}' and '{}' may both be meant: say which, as in {}", head_.names[one],
+           head_.names[other], whole_columns_option(head_, example));
   }
 
   const TableHead& head_;
@@ -195,11 +194,11 @@ void ask_about_names(const TableHead& head, const std::vector<TableColumns::Body
     const std::string list = body.id.substr(0, body.id.rfind('.'));
     const bool is_list =
         list.size() < body.id.size() && list.find_first_of("0123456789.") == std::string::npos;
-    throw ProgramError(fmt::format(
-        "{}: '{}' may name another body in each row than '{}' and '{}' of the row before: write a row for "
-        "each body{}, or say --format table if it is one and the same in all rows",
-        head.file, *name, head.names[body.x], head.names[body.y],
-        is_list ? fmt::format(", with jq -c '(arrays[], objects) | . + .{0}[] | del(.{0})'", list) : ""));
+    refuse(head,
+           "'{}' may name another body in each row than '{}' and '{}' of the row before: write a row for "
+           "each body{}, or say --format table if it is one and the same in all rows",
+           *name, head.names[body.x], head.names[body.y],
+           is_list ? fmt::format(", with jq -c '(arrays[], objects) | . + .{0}[] | del(.{0})'", list) : "");
   }
 }
 
@@ -219,9 +218,8 @@ void take_unit_of_bodies(const TableHead& head, Quantity quantity, TableColumns&
     const bool is_across = quantity == Quantity::y || quantity == Quantity::latitude;
     const std::size_t place = quantity == Quantity::z ? *body.z : is_across ? body.y : body.x;
     if (unit_of_column(head, place, quantity) != unit_of_column(head, column.place, quantity))
-      throw ProgramError(fmt::format("{}: expected one unit of {}, but {} and {} have different ones",
-                                     head.file, key_of(quantity), column_text(head, column.place),
-                                     column_text(head, place)));
+      refuse(head, "expected one unit of {}, but {} and {} have different ones", key_of(quantity),
+             column_text(head, column.place), column_text(head, place));
   }
 }
 
@@ -287,9 +285,8 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
   const auto earth = bodies_in_names(head, Quantity::longitude, Quantity::latitude);
   const bool is_earth = plane.empty() || (!earth.empty() && hints.positions == "lonlat");
   if (!plane.empty() && !earth.empty() && hints.positions.empty())
-    throw ProgramError(
-        fmt::format("{}: columns '{}' and '{}' may both be meant: say --positions plane or lonlat", head.file,
-                    head.names[plane[0].x], head.names[earth[0].x]));
+    refuse(head, "columns '{}' and '{}' may both be meant: say --positions plane or lonlat",
+           head.names[plane[0].x], head.names[earth[0].x]);
   const std::vector<TableColumns::Body>& bodies = is_earth ? earth : plane;
   const bool numbered = are_numbered(bodies);
   if (bodies.empty() || (!numbered && (bodies.size() == 1 || has_likely_id(head)))) return;
@@ -297,8 +294,7 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
   const auto heights =
       std::count_if(bodies.begin(), bodies.end(), [](const auto& each) { return each.z.has_value(); });
   if (heights != 0 && heights != std::ssize(bodies))
-    throw ProgramError(fmt::format("{}: expected a height for each pair of columns or for none; it has {}",
-                                   head.file, head.text()));
+    refuse(head, "expected a height for each pair of columns or for none; it has {}", head.text());
   // Of the bodies, as x1 and p1 are (x0, y0, x1, y1 are mostly corners), or the time.
   const auto is_usual = [&](std::size_t place) {
     const std::string& name = head.names[place];
@@ -316,11 +312,11 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
   const bool may_be_corners =
       bodies.size() == 2 && heights == 0 && parse_number(bodies.front().id) && !all_usual;
   if ((!numbered || may_be_corners) && hints.format != "table")
-    throw ProgramError(
-        fmt::format("{}: {}, {}, {} and {} may be two bodies or {}: say --format table if each such pair is "
-                    "a body, else say the columns with --columns",
-                    head.file, head.names[bodies[0].x], head.names[bodies[0].y], head.names[bodies[1].x],
-                    head.names[bodies[1].y], numbered ? "the corners of boxes" : "parts of one"));
+    refuse(head,
+           "{}, {}, {} and {} may be two bodies or {}: say --format table if each such pair is a body, else "
+           "say the columns with --columns",
+           head.names[bodies[0].x], head.names[bodies[0].y], head.names[bodies[1].x], head.names[bodies[1].y],
+           numbered ? "the corners of boxes" : "parts of one");
   columns.bodies = bodies;
   columns.format = fmt::format("{} {} of columns", bodies.size(), heights == 0 ? "pairs" : "triples");
   const TableColumns::Body& first = columns.bodies.front();
