@@ -253,17 +253,8 @@ class NmeaFormat final : public RememberingFormat<NmeaFormat> {
     report.category = category_of(position.station);
   }
   static std::string_view category_of(AisStation station) {
-    switch (station) {
-      case AisStation::class_a:
-        return "A";
-      case AisStation::class_b:
-        return "B";
-      case AisStation::search_aircraft:
-        return "search aircraft";
-      case AisStation::aid_to_navigation:
-        break;
-    }
-    return "aid to navigation";
+    constexpr std::string_view names[] = {"A", "B", "search aircraft", "aid to navigation"};
+    return names[static_cast<std::size_t>(station)];
   }
 
   static void add_velocity(const AisPosition& position, SourceReport& report) {

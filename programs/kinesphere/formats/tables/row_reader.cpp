@@ -141,14 +141,8 @@ std::string RowReader::wrong_text(std::size_t column, std::string_view expected)
 }
 
 std::string_view RowReader::name_of(Quantity quantity) const {
-  switch (quantity) {
-    case Quantity::longitude:
-      return "longitude";
-    case Quantity::latitude:
-      return "latitude";
-    default:
-      return key_of(quantity);
-  }
+  if (quantity == Quantity::longitude) return "longitude";
+  return quantity == Quantity::latitude ? "latitude" : key_of(quantity);
 }
 
 void RowReader::set_body(std::size_t body) {
