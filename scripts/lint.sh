@@ -110,7 +110,7 @@ recipes=(
   'zeno_?interval 21 a field of the definition of a world'
   'Triangle 44 a static shape'
   'earliest_?approach 11 a query'
-  'sbs 10 a format of messages'
+  'sbs 8 a format of messages'
 )
 # The lines that interface/generate.py has not written, each after the name of its file.
 hand_written='FNR == 1 { made = /Generated from include\/kinesphere\.h/; part = 0 }

@@ -15,12 +15,23 @@
 #include <vector>
 
 #include "base/program_error.hpp"
+#include "formats/streams/report_format.hpp"
 
 namespace kinesphere::program {
 
 inline std::string read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Continues with the state of another format, as a later run does from its bytes.
+inline void take_state(const ReportFormat& from, ReportFormat& to) {
+  ByteWriter written;
+  from.save(written);
+  ByteReader state(written.bytes());
+  to.restore(state);
+  EXPECT_FALSE(state.failed());
+  EXPECT_EQ(state.remaining(), 0u);
 }
 
 /// Gives each test a folder of its own, and removes it afterwards.

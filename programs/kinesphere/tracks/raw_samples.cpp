@@ -213,7 +213,8 @@ class RawTrackSet::FileReader final : public ReportSink {
     if (!scene_columns_) {
       scene_columns_.emplace();
       for (const std::size_t place : row.columns().unused)
-        if (place < names.size() && (is_scene(names[place]) || is_zone(names[place])) &&
+        if (place < names.size() &&
+            (hints_at(names[place], NameHint::scene) || hints_at(names[place], NameHint::zone)) &&
             !row.filter().mentions(place))
           scene_columns_->push_back(place);
     }
@@ -226,7 +227,8 @@ class RawTrackSet::FileReader final : public ReportSink {
     const auto& id = rows.columns()[Quantity::id];
     if (!id || rows.filter().mentions(id->place)) return;
     const auto& names = rows.head().names;
-    const bool is_of_craft = !names.empty() && (is_of_aircraft(names[id->place]) || rows.columns().is_ais);
+    const bool is_of_craft =
+        !names.empty() && (hints_at(names[id->place], NameHint::aircraft) || rows.columns().is_ais);
     if (!is_of_craft) track_set_.id_column_ = id->place;
   }
   std::uint32_t this_file() const { return static_cast<std::uint32_t>(track_set_.files_.size() - 1); }

@@ -55,11 +55,10 @@ std::string_view name_of(Outside outside) {
 CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& files, TrackOptions& options) {
   command.footer(
       "Tables with separators ; , tab or blanks, quoted or not, with the usual column names: id (mmsi, "
-      "track_id, agent, ...), time (t, timestamp, datetime, ...) or frame, x y z or lon lat. GPX, KML, logs "
-      "of NMEA and IGC, JSON, XYZ, dumps of LAMMPS, motion capture, Vissim, pNEUMA, "
-      "sentences of AIS, messages of ADS-B, ASTERIX and GTFS-realtime in JSON. docs/tables.md explains each "
-      "kind of file, and docs/tracks.md "
-      "every option.");
+      "track_id, agent, ...), time (t, timestamp, datetime, ...) or frame, x y z or lon lat. GPX, logs of "
+      "NMEA, JSON, XYZ, dumps of LAMMPS, FCD output of SUMO, OEM, sentences of AIS, messages of ADS-B, "
+      "ASTERIX and GTFS-realtime in JSON. docs/tables.md explains each kind of file, and how others become "
+      "tables, and docs/tracks.md every option.");
   CLI::Option* const file_option =
       command
           .add_option(

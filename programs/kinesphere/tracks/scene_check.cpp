@@ -27,7 +27,7 @@ void SceneCheck::ask(const std::string& file) const {
     std::vector<std::pair<std::string, Span>> ordered(scenes.begin(), scenes.end());
     std::sort(ordered.begin(), ordered.end(),
               [](const auto& a, const auto& b) { return is_earlier(a.second.first, b.second.first); });
-    const bool are_zones = is_zone(column);
+    const bool are_zones = hints_at(column, NameHint::zone);
     std::size_t latest = 0;
     for (std::size_t k = 1; k < ordered.size(); ++k) {
       if (!are_zones && !is_earlier(ordered[k].second.first, ordered[latest].second.last)) {

@@ -19,7 +19,7 @@ namespace {
 
 /// Raise the version when the fields change, or when a watch would continue differently from equal fields.
 constexpr Envelope envelope{
-    {'K', 'i', 'n', 'W', 'a', 't', '\r', '\n'}, 14, "watch", "watch", "snapshot", ErrorCode::bad_snapshot};
+    {'K', 'i', 'n', 'W', 'a', 't', '\r', '\n'}, 15, "watch", "watch", "snapshot", ErrorCode::bad_snapshot};
 /// Snapshots of 1.0 begin with this text.
 constexpr std::string_view earlier_title = "kinesphere watch snapshot ";
 

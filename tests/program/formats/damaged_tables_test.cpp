@@ -30,14 +30,7 @@ constexpr std::string_view healthy[] = {
     "1 0.9 0 0\nITEM: TIME\n1\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id xs ys zs\n1 0.1 0 0\n",
     "$GPRMC,235959,A,4700.1,N,00800.0,E,,,311224,,\n$GPGGA,235959,4700.1,N,00800.0,E,1,8,1,5,M,,,,\n"
     "$GPRMC,000000,A,4700.1,N,00800.1,E,,,010125,,\n$GPGGA,000000,4700.1,N,00800.1,E,1,8,1,5,M,,,,\n",
-    "AXXX\nHFDTE311224\nB2359594700000N00800000EA0090000950\nB0000004700000N00800100EA0090000950\n",
     "# framerate: 25 fps\nframe,lat1,lon1,lat2,lon2\n0,47,8,47,9\n1,47,8.1,47,9\n",
-    "Trajectories\n100\n,,a,,,b,,\nFrame,Sub Frame,X,Y,Z,X,Y,Z\n,,mm,mm,mm,mm,mm,mm\n1,0,1,2,3,4,5,6\n"
-    "2,0,1,2,3,4,,6\n",
-    "NO_OF_FRAMES\t2\nFREQUENCY\t100\nMARKER_NAMES\ta\tb\n1\t2\t3\t4\t5\t6\n1\t2\t3\t0\t0\t0\n",
-    "<kml><Placemark><name>a</name><gx:Track><altitudeMode>absolute</altitudeMode>\n"
-    "<when>2024-01-01T00:00:00Z</when><when>2024-01-01T00:00:10Z</when>\n<gx:coord>8 47 1</gx:coord>"
-    "<gx:coord>8.1 47 2</gx:coord></gx:Track></Placemark></kml>",
     "<fcd-export>\n<timestep time=\"0\"><vehicle id=\"a\" x=\"1\" y=\"2\"/></timestep>\n"
     "<timestep time=\"1\"><vehicle id=\"a\" x=\"2\" y=\"2\"/></timestep></fcd-export>",
     R"({"type": "FeatureCollection", "features": [

@@ -1,12 +1,15 @@
-// Exports that one line of Python converts are named, and so is where that line stands.
+// Files that one line converts, or that only look like others that are read, are named, and so is that line.
 #include "program/support.hpp"
 #include "tracks/track_file.hpp"
 
 namespace kinesphere::program::exports_test {
 namespace {
 
+TrackSet parse_text(const std::string& text, const TrackOptions& options = {}) {
+  return parse_tracks({{"folder/f.csv", text}}, options);
+}
 std::string error_in(const std::string& text) {
-  return error_of([&] { parse_tracks({{"folder/f.csv", text}}, {}); });
+  return error_of([&] { parse_text(text); });
 }
 
 TEST(Exports, ThatPandasConvertsAreNamed) {
@@ -32,12 +35,66 @@ TEST(Exports, ThatPandasConvertsAreNamed) {
         std::pair(std::string("scorer,net,net,net\nbodyparts,a,a,a\ncoords,x,y,likelihood\n0,1,2,0.9\n"),
                   "a table of DeepLabCut"),
         std::pair(std::string("scorer,net,net\nindividuals,a,a\nbodyparts,b,b\ncoords,x,y\n0,1,2\n"),
-                  "a table of DeepLabCut")}) {
+                  "a table of DeepLabCut"),
+        std::pair(std::string("Trajectories\r\n100\r\n,,a,,,b,,\r\n"),
+                  "motion capture with columns of each marker"),
+        std::pair(std::string("PathFileType\t4\t(X/Y/Z)\tx.trc\n"), "motion capture with columns"),
+        std::pair(std::string("NO_OF_FRAMES\t40\nNO_OF_MARKERS\t2\n"), "motion capture with columns"),
+        std::pair(std::string("Format Version,1.23,Take Name,x\n"), "motion capture with columns"),
+        std::pair(std::string("$VISION\n* File: a.inpx\n"), "a record of Vissim"),
+        std::pair(std::string("track_id; type; traveled_d; avg_speed; lat; lon\n1; Car; 1; 1; 37.9; 23.7\n"),
+                  "a table of pNEUMA"),
+        std::pair(std::string("Geolife trajectory\r\nWGS 84\r\n"), "a walk of GeoLife")}) {
     const std::string error = error_in(text);
     EXPECT_TRUE(error.starts_with("folder/f.csv: ")) << error;
     EXPECT_NE(error.find(is), std::string::npos) << error;
     EXPECT_NE(error.find("docs/tables.md"), std::string::npos) << error;
   }
+}
+
+TEST(Exports, ThatGpsbabelConvertsAreNamed) {
+  for (const auto& [text, command] :
+       {std::pair("<?xml version=\"1.0\"?>\n<kml><Placemark/></kml>\n", "gpsbabel -i kml -f FILE"),
+        std::pair("AXXX\nHFDTE311224\nB2359594700000N00800000EA0090000950\n", "gpsbabel -i igc -f FILE"),
+        std::pair("HFDTE311224\n", "gpsbabel -i igc -f FILE"),
+        std::pair("OziExplorer Track Point File Version 2.1\nWGS 84\n", "gpsbabel -i ozi -f FILE")})
+    EXPECT_NE(error_in(text).find(command), std::string::npos) << text;
+}
+
+TEST(Exports, WhatLooksLikeARecordingIsNamed) {
+  for (const char* strava :
+       {R"({"time":{"data":[0,1],"series_type":"distance"},"latlng":{"data":[[46.1,7.2],[46.2,7.3]]}})",
+        R"({"latlng": [[46.1, 7.2]], "time": [0]})",
+        R"([{"type":"latlng","data":[[46.1,7.2]],"series_type":"time"},{"type":"time","data":[0]}])"})
+    EXPECT_NE(error_in(strava).find("streams of Strava, whose times count from the start of their activity"),
+              std::string::npos)
+        << strava;
+  for (const char* lists : {R"({"id":["a","b"],"time":[0,0],"x":[1,2],"y":[1,2]})",
+                            R"({"id":{"0":"a","1":"b"},"time":{"0":0,"1":0}})"})
+    EXPECT_NE(error_in(lists).find("JSON with a list for each name"), std::string::npos) << lists;
+  for (const char* elements :
+       {"OBJECT_NAME,OBJECT_ID,EPOCH,MEAN_MOTION,ECCENTRICITY\nISS,1998-067A,2024-01-01T00:00:00,15.5,0."
+        "0001\n",
+        R"([{"OBJECT_NAME":"ISS","EPOCH":"2024-01-01T00:00:00","MEAN_MOTION":15.5,"ECCENTRICITY":0.0001}])",
+        "CCSDS_OMM_VERS = 2.0\nOBJECT_NAME = ISS\nEPOCH = 2024-01-01T00:00:00\nMEAN_MOTION = "
+        "15.5\nECCENTRICITY = 0.0001\n"})
+    EXPECT_NE(error_in(elements).find("orbital elements (OMM), not positions"), std::string::npos)
+        << elements;
+  // Records may begin with a time or a list.
+  EXPECT_EQ(
+      parse_text("{\"time\":0,\"id\":\"a\",\"x\":1,\"y\":2}\n{\"time\":1,\"id\":\"a\",\"x\":2,\"y\":2}\n")
+          .format,
+      "JSON records");
+  EXPECT_EQ(
+      parse_text(
+          "{\"position\":[1,2],\"id\":\"a\",\"time\":0}\n{\"position\":[1,2],\"id\":\"a\",\"time\":1}\n",
+          [] {
+            TrackOptions options;
+            options.hints.columns = "id=id,time=time,x=position.0,y=position.1";
+            return options;
+          }())
+          .tracks.size(),
+      1u);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -336,7 +335,7 @@ TEST(CsvFormat, RemembersTheOrderOfDayAndMonth) {
   // A run that continues behind the first rows.
   CollectedReports after;
   const auto next = make_format(StreamFormat::csv, {});
-  next->restore(before.format->save());
+  take_state(*before.format, *next);
   next->read({.text = std::string_view(later).substr(0, later.size() - 1), .line = 9}, after);
   ASSERT_EQ(after.reports.size(), 1u);
   EXPECT_EQ(seconds(after.reports[0].report.stamp), april_3);

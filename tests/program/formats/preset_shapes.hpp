@@ -40,7 +40,7 @@ constexpr PresetShape preset_shapes[] = {
      "0,{id},{frame},1,{x},{y},0,2,4\n"},
     {"ngsim", "Vehicle_ID,Frame_ID,Global_Time,Local_X,Local_Y,v_Length\n", "{id},{frame},{ms},{x},{y},14\n",
      0.3048},
-    {"vissim", "$VEHICLE:NO;SIMSEC;COORDFRONTX;COORDFRONTY\n", "{id};{s};{x};{y}\n"},
+    {"vissim", "NO;SIMSEC;COORDFRONTX;COORDFRONTY\n", "{id};{s};{x};{y}\n"},
     {"argoverse", "TIMESTAMP,TRACK_ID,OBJECT_TYPE,X,Y,CITY_NAME\n", "{unix},{id},OTHERS,{x},{y},MIA\n"},
     {"interaction", "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy\n",
      "{id},{frame},{ms},car,{x},{y},1,0\n"},

@@ -1,4 +1,4 @@
-// Logs of receivers: NMEA 0183 and IGC.
+// Logs of receivers: NMEA 0183.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -177,105 +177,6 @@ TEST(ReceiverLogs, WrongOnesNameLineAndField) {
   EXPECT_EQ(rest.warnings,
             (std::vector<std::string>{"f: sentences without a valid position are left out: 1",
                                       "f:4: a wrong checksum (so many damaged sentences are left out: 2)"}));
-}
-
-/// Fixes of a glider have thousandths of minutes, and altitudes in whole metres.
-std::string igc(const std::vector<LoggedPlace>& places, bool has_pressure) {
-  std::string text = "AXXXABC FLIGHT:1\r\nHFDTEDATE:311224,01\r\nHFGTYGLIDERTYPE:B4\r\n";
-  for (const LoggedPlace& place : places) {
-    const auto angle = [](std::int64_t size, int digits, std::string_view letters) {
-      return fmt::format("{:0{}}{:05}{}", std::abs(size) / 600'000, digits, std::abs(size) % 600'000 / 10,
-                         letters[size < 0 ? 1 : 0]);
-    };
-    text += fmt::format("B{}{}{}A{:05}{:05}00123\r\n", clock_text(place.second), angle(place.north, 2, "NS"),
-                        angle(place.east, 3, "EW"), has_pressure ? static_cast<int>(place.height) : 0,
-                        static_cast<int>(place.height) + (has_pressure ? 50 : 0));
-  }
-  return text;
-}
-
-TEST(ReceiverLogs, OfGlidersAreReadAsTheyWereWritten) {
-  constexpr std::uint64_t seed = 186;
-  Random random(seed);
-  auto one = drawn_places(random, 450, 5'000'000, 28'000'000),
-       other = drawn_places(random, 450, 5'000'400, 28'000'000);
-  for (auto* const places : {&one, &other})
-    for (LoggedPlace& place : *places)
-      place.east -= place.east % 10, place.north -= place.north % 10,
-          place.height = std::round(900 + place.height);
-  for (const bool has_pressure : {true, false}) {
-    const TrackSet two = parse({{"a.igc", igc(one, has_pressure)}, {"b.igc", igc(other, has_pressure)}});
-    ASSERT_EQ(two.tracks.size(), 2u);
-    EXPECT_EQ(two.tracks[1].id, "b");
-    EXPECT_EQ(two.times.text(two.tracks[0].samples[420].time), "2025-01-01T00:00:20Z");
-    expect_places(two, 0, one, true);
-    expect_places(two, 1, other, true);
-  }
-  TrackOptions geometric;
-  geometric.altitude = FormatChoices::Altitude::geometric;
-  const TrackSet satellite = parse({{"a.igc", igc(one, true)}}, geometric);
-  for (LoggedPlace& place : one) place.height += 50;
-  expect_places(satellite, 0, one, true);
-}
-
-TEST(ReceiverLogs, WrongOnesOfGlidersNameLineAndColumns) {
-  const std::string head = "AXXX\nHFDTE311224\n", good = "B0000004700000N00800000EA0090000950\n";
-  const auto wrong = [&](const std::string& line) {
-    return error_of([&] { parse({{"f.igc", head + good + line}}); });
-  };
-  EXPECT_EQ(wrong("B0000014760000N00800000EA0090000950\n"),
-            "f.igc:4: expected a latitude, ddmmmmm and N or S (columns 8 to 15), but got '4760000N'");
-  EXPECT_EQ(wrong("B0000014700000N00800000EA009x000950\n"),
-            "f.igc:4: expected an altitude by pressure (columns 26 to 30), but got '009x0'");
-  EXPECT_EQ(wrong("B00000147\n"),
-            "f.igc:4: expected a whole B record (columns 1 to 35), but got 'B00000147'");
-  EXPECT_EQ(error_of([&] {
-              parse({{"f.igc", "AXXX\n" + good + "HFDTE311224\n"}});
-            }),
-            "f.igc:2: expected a date (a record HFDTE) before the first fix");
-}
-
-TEST(ReceiverLogs, ReadsPlt) {
-  const auto plt = [](const std::string& title, const std::string& datum, const std::string& rows) {
-    return title + "\n" + datum + "\nAltitude is in Feet\nReserved 3\n0,2,255,My Track,0,0,2,8421376\n0\n" +
-           rows;
-  };
-  const std::string ozi_title = "OziExplorer Track Point File Version 2.1";
-  // Days are rounded: these are 14:04:30 and 14:04:35.
-  const std::string geolife = plt("Geolife trajectory", "WGS 84",
-                                  "39.906631,116.385564,0,492,40097.5864583333,2009-10-11,14:04:30\r\n"
-                                  "39.906554,116.385625,0,492,40097.5865162037,2009-10-11,14:04:35\r\n");
-  const std::string row = "  39.906631, 116.385564,1,{}, {}, 11-Oct-09, 14:04:30\n";
-  const auto ozi = [&](const char* height) {
-    return plt(ozi_title, "WGS 84",
-               fmt::format(fmt::runtime(row), 492, "40097.5864583") +
-                   fmt::format(fmt::runtime(row), height, "40097.5864612"));
-  };
-  TrackOptions options;
-  options.max_gap = 10.0;
-  const TrackSet track_set = parse({{"walks/20091011.plt", geolife}, {"b.plt", ozi("492")}}, options);
-  EXPECT_EQ(track_set.format, "PLT");
-  EXPECT_TRUE(track_set.has_heights);
-  ASSERT_EQ(track_set.tracks.size(), 2u);
-  EXPECT_EQ(track_set.tracks[0].id, "20091011");
-  const auto time = [&](std::size_t track, std::size_t sample) {
-    return track_set.times.text(track_set.tracks[track].samples[sample].time);
-  };
-  EXPECT_EQ(time(0, 0), "2009-10-11T14:04:30Z");
-  EXPECT_EQ(time(0, 1), "2009-10-11T14:04:35Z");
-  EXPECT_EQ(time(1, 0), "2009-10-11T14:04:30Z");
-  EXPECT_EQ(time(1, 1), "2009-10-11T14:04:30.248Z") << "parts of a second stay";
-  const auto& places = track_set.tracks;
-  // Both begin at one place, and 492 ft high.
-  EXPECT_NEAR(norm(places[0].samples[0].position - places[1].samples[0].position), 0.0, 1e-6);
-  EXPECT_NEAR(track_set.coordinates.as_in_file(places[0].samples[0].position).z, 492.0, 1e-6);
-  const TrackSet without = parse({{"b.plt", ozi("-777")}});
-  EXPECT_FALSE(without.has_heights);
-  EXPECT_EQ(without.warnings.size(), 1u);
-  EXPECT_NE(error_in(plt(ozi_title, "Tokyo", "")).find(":2: expected places of WGS 84"), std::string::npos);
-  EXPECT_NE(error_in(plt(ozi_title, "WGS 84", "47,8,0,1\n"))
-                .find(":7: expected latitude, longitude, break, height, days since 1899, but got '47,8,0,1'"),
-            std::string::npos);
 }
 
 }  // namespace

@@ -62,39 +62,6 @@ TEST(Recordings, ReadsGpx) {
       error_in("<!DOCTYPE gpx [<!ENTITY a \"aaaa\">]><gpx>&a;</gpx>").starts_with("f:1: expected GPX: "));
 }
 
-TEST(Recordings, ReadsKml) {
-#ifndef KINESPHERE_WITH_EXPAT
-  GTEST_SKIP() << "built without expat";
-#endif
-  const auto kml = [](const std::string& mode, const std::string& coordinates) {
-    return "<kml "
-           "xmlns:gx=\"http://www.google.com/kml/ext/2.2\"><Document><name>all</name><Placemark><name>a</"
-           "name>"
-           "<gx:Track>" +
-           mode + "<when>2024-01-01T00:00:00Z</when><when>2024-01-01T00:00:10Z</when>\n" + coordinates +
-           "</gx:Track></Placemark></Document></kml>";
-  };
-  const std::string two = "<gx:coord>8.0 47.0 10</gx:coord><gx:coord>8.0001 47.0 10</gx:coord>";
-  const TrackSet flat = parse(kml("", two));
-  EXPECT_EQ(flat.format, "KML");
-  ASSERT_EQ(flat.tracks.size(), 1u);
-  EXPECT_EQ(flat.tracks[0].id, "a");
-  EXPECT_TRUE(flat.is_plane) << "heights are not those of the sea";
-  for (const char* mode : {"", "<altitudeMode>relativeToGround</altitudeMode>"})
-    EXPECT_EQ(parse(kml(mode, two)).warnings,
-              std::vector<std::string>{
-                  "f: heights whose altitudeMode is not absolute are not above the sea, and are not used"});
-  EXPECT_TRUE(parse(kml("", "<gx:coord>8 47 0</gx:coord><gx:coord>8 47</gx:coord>")).warnings.empty());
-  EXPECT_NEAR(norm(flat.tracks[0].samples[1].position - flat.tracks[0].samples[0].position), 7.6, 0.1);
-  EXPECT_TRUE(parse(kml("<altitudeMode>absolute</altitudeMode>", two)).has_heights);
-  EXPECT_EQ(error_in(kml("", "<gx:coord>8.0 47.0 10</gx:coord>")),
-            "f:2: expected as many times as places of track 'a', but got 2 and 1");
-  EXPECT_EQ(
-      error_in(
-          "<kml><Placemark><LineString><coordinates>8,47 9,47</coordinates></LineString></Placemark></kml>"),
-      "f: expected tracks with times (gx:Track), but there are none: other lines of KML have no times");
-}
-
 TEST(Recordings, ReadsGeoJson) {
   const auto collection = [](const std::string& features) {
     return "{\"type\": \"FeatureCollection\", \"features\": [\n" + features + "]}";
@@ -315,9 +282,9 @@ TEST(Recordings, OfSeveralPlacesInALineNameThatLine) {
 TEST(Recordings, FormatTableExcludesThem) {
   TrackOptions options;
   options.hints.format = "table";
-  const std::string like_optitrack = "Format Version,id,time,x,y\n1,a,0,0,0\n1,a,1,1,0\n";
-  EXPECT_NE(error_in(like_optitrack).find("in the header of OptiTrack Motive"), std::string::npos);
-  EXPECT_EQ(parse(like_optitrack, options).tracks.size(), 1u);
+  const std::string like_log = "id,note,time,x,y\na,$GPRMC,0,0,0\na,$GPRMC,1,1,0\n";
+  EXPECT_NE(error_in(like_log).find("expected a time of day, hhmmss"), std::string::npos);
+  EXPECT_EQ(parse(like_log, options).tracks.size(), 1u);
   // Records in JSON are a table.
   EXPECT_EQ(parse(R"([{"id":"a","time":0,"x":1,"y":2},{"id":"a","time":1,"x":1,"y":2}])", options).format,
             "JSON records");

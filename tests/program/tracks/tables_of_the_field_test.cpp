@@ -855,7 +855,7 @@ const Shape shapes[] = {
      "position.y,"
      "field.pose.position.z\n",
      "{1}000000000,{1},{1}000000000,map,{2},{3},0\n", "", 2},
-    {"Vissim", "$VEHICLE:SIMSEC;NO;COORDFRONTX;COORDFRONTY\n", "{1};{0};{2};{3}\n"},
+    {"Vissim", "SIMSEC;NO;COORDFRONTX;COORDFRONTY\n", "{1};{0};{2};{3}\n"},
     {"Danish AIS", "# Timestamp,Type of mobile,MMSI,Latitude,Longitude,Navigational status,ROT,SOG,COG\n",
      "03/09/2025 00:00:0{1},Class A,11100000{0},{5},{4},Under way,0,1,90\n"},
     {"AIS of marinecadastre.gov", "MMSI,BaseDateTime,LAT,LON,SOG,COG\n",

@@ -360,7 +360,7 @@ TEST(TrackClasses, ContinueFromASnapshot) {
     // One of the first is held: nothing confirms its time.
     auto later = std::make_unique<ClassWatch>(StreamFormat::nmea, options);
     later->pipeline.restore(part->pipeline.save());
-    later->reader->restore(Json::from_cbor(Json::to_cbor(part->reader->save())));
+    take_state(*part->reader, *later->reader);
     later->alerts = part->alerts;
     part = std::move(later);
   }

@@ -415,8 +415,8 @@ TEST_F(StreamsOfTheField, TablesMeanWhatTheySay) {
   // Recordings that are wrong are told as by tracks.
   expect_refused("<?xml version=\"1.0\"?><gpx></gpx>", promises, {"expected tracks (trk) whose points"});
   expect_refused("scorer,a,a\nbodyparts,b,b\ncoords,x,y\n0,1,2\n", promises, {"a table of DeepLabCut"});
-  expect_refused("AXXX001\nHFDTE010124\nB000000\n", promises, {"a whole B record"});
-  expect_refused("Format Version,1.23,Take Name,a\n,,\n", promises, {"OptiTrack"});
+  expect_refused("AXXX001\nHFDTE010124\nB000000\n", promises, {"a flight log (IGC)"});
+  expect_refused("Format Version,1.23,Take Name,a\n,,\n", promises, {"OptiTrack): make a table"});
   expect_refused("2\nwater\nO 1 2 3\nH 4 5 6\n", promises, {"--frame-rate"});
   expect_refused("$GPGSV,1,1,00*79\n", promises,
                  {"$GPRMC and $GPGGA of receivers of GPS are read from a file"});

@@ -120,10 +120,4 @@ std::string shown_field(std::string_view field) {
   return fmt::format("'{}{}'", text, field.size() > most ? "..." : "");
 }
 
-std::string quoted_field(std::string_view text) {
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
-  return field + '"';
-}
-
 }  // namespace kinesphere::program

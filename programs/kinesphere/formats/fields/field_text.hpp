@@ -29,7 +29,5 @@ std::optional<double> angle_field(std::string_view text, bool decimal_comma, std
 bool is_missing(std::string_view field);
 /// Returns the field on one line and shortened, for messages: in quotes, or the word nothing.
 std::string shown_field(std::string_view field);
-/// Returns the text as a quoted field of a table, on one line.
-std::string quoted_field(std::string_view text);
 
 }  // namespace kinesphere::program

@@ -9,10 +9,10 @@ namespace kinesphere::program {
 std::optional<std::string_view> LineCutter::next() {
   if (rest_.empty()) return std::nullopt;
   const std::size_t all = rest_.size();
-  whole_ = take_part(rest_, '\n');
-  has_end_ = whole_.size() < all;
+  const std::string_view line = take_part(rest_, '\n');
+  has_end_ = line.size() < all;
   ++line_;
-  return trimmed(whole_);
+  return trimmed(line);
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {

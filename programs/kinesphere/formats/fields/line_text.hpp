@@ -20,13 +20,11 @@ class LineCutter {
   std::optional<std::string_view> next();
   /// Line of the last result of next(), from 1.
   std::size_t line() const { return line_; }
-  /// The last line with its leading blanks, for formats of fixed columns.
-  std::string_view whole() const { return whole_; }
   /// True if the last line had an end: a file that was cut off may lack it.
   bool has_end() const { return has_end_; }
 
  private:
-  std::string_view rest_, whole_;
+  std::string_view rest_;
   std::size_t line_ = 0;
   bool has_end_ = true;
 };

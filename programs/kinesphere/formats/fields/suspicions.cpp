@@ -47,8 +47,7 @@ std::string TimeCheck::day_suspicion(std::size_t samples) const {
   if (least_ >= 1970.0 && largest_ <= 2100.0 && span < 1e-4 * count)
     return fmt::format(
         "the times {} to {} may be years: write dates, as in 2024-01-31T12:30:15, or say --time-unit s if "
-        "they "
-        "are seconds",
+        "they are seconds",
         least_, largest_);
   // About a minute. Cameras of 120 or 240 frames a second have longer steps, which are whole seconds, too.
   constexpr double longest_step = 7.5e-4;

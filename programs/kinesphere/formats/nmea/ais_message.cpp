@@ -33,18 +33,6 @@ void AisBits::append(std::string_view characters, std::size_t fill_bits) {
   }
 }
 
-std::string AisBits::digits() const {
-  std::string text;
-  for (const bool bit : bits_) text += bit ? '1' : '0';
-  return text;
-}
-
-AisBits AisBits::of_digits(std::string_view digits) {
-  AisBits bits;
-  for (const char digit : digits) bits.bits_.push_back(digit == '1');
-  return bits;
-}
-
 std::uint32_t AisBits::number(std::size_t begin, std::size_t count) const {
   std::uint32_t value = 0;
   for (std::size_t k = begin; k < begin + count; ++k) value = value << 1U | (flag(k) ? 1U : 0U);

@@ -25,10 +25,8 @@ class AisBits {
   std::uint32_t number(std::size_t begin, std::size_t count) const;
   /// Returns the same as a two's complement. Range: 0 < count <= 31.
   std::int32_t signed_number(std::size_t begin, std::size_t count) const;
-  /// Returns the bits as digits 0 and 1, or makes bits of them.
-  std::string digits() const;
-  static AisBits of_digits(std::string_view digits);
   bool flag(std::size_t at) const { return at < size() && bits_[at]; }
+  static void serialize(auto& self, auto& archive) { archive(self.bits_); }
 
  private:
   std::vector<bool> bits_;

@@ -10,7 +10,6 @@
 
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
-#include "formats/fields/clock_days.hpp"
 #include "formats/fields/line_text.hpp"
 #include "formats/fields/wrong_input.hpp"
 #include "formats/nmea/ais_message.hpp"
@@ -77,10 +76,9 @@ AisSentence sentence_of(std::string_view content) {
   const auto of = digit_in(fields[1], '1', '9'), number = digit_in(fields[2], '1', '9');
   const auto fill_bits = digit_in(fields[6], '0', '5');
   if (!of || !number || *number > *of)
-    throw MalformedRecord(
-        fmt::format("expected the number of sentences and that of this one (fields 2 and 3), but got '{}' "
-                    "and '{}'",
-                    fields[1], fields[2]));
+    throw MalformedRecord(fmt::format(
+        "expected the number of sentences and that of this one (fields 2 and 3), but got '{}' and '{}'",
+        fields[1], fields[2]));
   if (!fill_bits)
     throw MalformedRecord(fmt::format("expected 0 to 5 fill bits (field 7), but got '{}'", fields[6]));
   if (fields[3].size() > 1 || fields[4].size() > 1)
@@ -159,6 +157,14 @@ NmeaLine line_without_ais(std::string_view text) {
   return line;
 }
 
+/// Returns the number of two digits at a place; -1 where there are none.
+int two_digits(std::string_view text, std::size_t at) {
+  if (text.size() < at + 2) return -1;
+  const char tens = text[at], ones = text[at + 1];
+  const bool are_digits = '0' <= tens && tens <= '9' && '0' <= ones && ones <= '9';
+  return are_digits ? 10 * (tens - '0') + (ones - '0') : -1;
+}
+
 }  // namespace
 
 CheckedText split_checksum(std::string_view text) {
@@ -235,6 +241,38 @@ bool looks_like_nmea(std::string_view line) {
   // A tag block in a line of its own, or before a sentence of another kind.
   const std::size_t end = line.starts_with('\\') ? line.find('\\', 1) : std::string_view::npos;
   return end != std::string_view::npos && line.substr(0, end).find('*') != std::string_view::npos;
+}
+
+std::optional<LoggedClock> logged_clock(std::string_view digits) {
+  const int hour = two_digits(digits, 0), minute = two_digits(digits, 2), second = two_digits(digits, 4);
+  if (hour < 0 || hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 60) return std::nullopt;
+  const std::string_view decimals = digits.substr(6);
+  if (!decimals.empty() && (decimals.size() < 2 || decimals.front() != '.' ||
+                            decimals.find_first_not_of("0123456789", 1) != std::string_view::npos))
+    return std::nullopt;
+  const double fraction = decimals.empty() ? 0.0 : *parse_number("0" + std::string(decimals));
+  return LoggedClock{3600.0 * hour + 60.0 * minute + second + fraction,
+                     fmt::format("{:02}:{:02}:{:02}{}", hour, minute, second, decimals)};
+}
+
+std::optional<std::chrono::sys_days> logged_date(std::string_view digits) {
+  const int day = two_digits(digits, 0), month = two_digits(digits, 2), year = two_digits(digits, 4);
+  if (digits.size() != 6 || day < 0 || month < 0 || year < 0) return std::nullopt;
+  const std::chrono::year_month_day date{std::chrono::year(year_of_two_digits(year)),
+                                         std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day))};
+  return date.ok() ? std::optional(std::chrono::sys_days(date)) : std::nullopt;
+}
+
+std::optional<double> degrees_and_minutes(std::string_view text, std::string_view hemisphere) {
+  const auto number = parse_number(text);
+  const std::size_t letter = std::string_view("NESW").find(hemisphere);
+  if (!number || *number < 0.0 || hemisphere.size() != 1 || letter == std::string_view::npos)
+    return std::nullopt;
+  const double whole = std::floor(*number / 100.0), minutes = *number - 100.0 * whole;
+  if (!(minutes < 60.0)) return std::nullopt;
+  const double degrees = whole + minutes / 60.0;
+  return letter < 2 ? degrees : -degrees;
 }
 
 std::optional<GpsFix> gps_fix_in(std::string_view line) {

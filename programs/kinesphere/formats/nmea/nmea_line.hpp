@@ -1,8 +1,10 @@
 // A line with a sentence of AIS: IEC 61162-1 sentences VDM and VDO, tag blocks of IEC 61162-450.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "formats/fields/time_text.hpp"
@@ -67,6 +69,20 @@ bool looks_like_nmea(std::string_view line);
 
 /// Returns true if the text has VDM or VDO anywhere.
 bool has_ais_sentence(std::string_view text);
+
+/// A time of day.
+struct LoggedClock {
+  double second = 0.0;  ///< since midnight
+  std::string text;     ///< as hh:mm:ss, with its decimals
+};
+
+/// Parses hhmmss with or without decimals; returns nothing for other text.
+std::optional<LoggedClock> logged_clock(std::string_view digits);
+/// Parses ddmmyy; returns nothing for other text and for days that do not exist.
+std::optional<std::chrono::sys_days> logged_date(std::string_view digits);
+/// Returns degrees of "ddmm.mmm" or "dddmm.mmm", negative in the south or west, as `hemisphere` says; nothing
+/// for other text.
+std::optional<double> degrees_and_minutes(std::string_view text, std::string_view hemisphere);
 
 struct GpsFix {
   FileTime time{};                          ///< UTC, seconds since 1970

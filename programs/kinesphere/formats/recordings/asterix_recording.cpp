@@ -106,8 +106,7 @@ class AsterixReader {
     if (reports_.empty())
       throw ProgramError(
           fmt::format("{}: expected records of CAT021, CAT048 or CAT062 with a time, a place and an address "
-                      "or track number, but "
-                      "there are none",
+                      "or track number, but there are none",
                       recording_.file));
     return table();
   }

@@ -6,7 +6,6 @@
 #include "formats/fields/field_text.hpp"
 #include "formats/fields/line_text.hpp"
 #include "formats/recordings/recording_kinds.hpp"
-#include "formats/recordings/track_labels.hpp"
 #include "formats/tables/column_names.hpp"
 #include "formats/tables/json_rows.hpp"
 
@@ -39,10 +38,10 @@ class GeoJsonReader {
     require_end(document, "one FeatureCollection");
     RowTable& table = rows_.table;
     if (table.names().empty())
-      throw ProgramError(fmt::format(
-          "{}: expected points with properties such as id and time, or lines with a list of as many times "
-          "in a property coordTimes, but there are none",
-          file_));
+      throw ProgramError(
+          fmt::format("{}: expected points with properties such as id and time, or lines with a list of as "
+                      "many times in a property coordTimes, but there are none",
+                      file_));
     table.format = "GeoJSON";
     if (left_out_ > 0)
       table.warnings.push_back(fmt::format(
@@ -94,7 +93,7 @@ class GeoJsonReader {
     std::string id = fmt::format("feature {}", features_);
     std::vector<std::string> times;
     if (ondemand::object properties; !feature["properties"].get_object().get(properties))
-      if (!read_properties(properties, id, times)) id = labels_.label(id);
+      if (!read_properties(properties, id, times)) id = rows_.table.label(id);
     feature.reset();
     std::vector<std::vector<std::string>> places;
     for (ondemand::value place : feature["geometry"]["coordinates"].get_array())
@@ -163,7 +162,6 @@ class GeoJsonReader {
   const std::string& file_;
   std::size_t& line_;
   JsonRows rows_;
-  TrackLabels labels_;
   std::size_t features_ = 0, left_out_ = 0;
 };
 

@@ -10,7 +10,6 @@
 #include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/fields/clock_days.hpp"
 #include "formats/fields/field_text.hpp"
 #include "formats/fields/line_text.hpp"
 #include "formats/nmea/nmea_line.hpp"
@@ -38,6 +37,13 @@ const GpsSentence* gps_sentence(std::string_view text) {
   return found == std::end(gps_sentences) ? nullptr : found;
 }
 
+/// Returns the time as a table has it: 2024-01-31T12:30:15.5Z.
+std::string logged_time(std::chrono::sys_days day, const LoggedClock& clock) {
+  const std::chrono::year_month_day date(day);
+  return fmt::format("{:04}-{:02}-{:02}T{}Z", static_cast<int>(date.year()),
+                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), clock.text);
+}
+
 /// What the sentences of one time of day say.
 struct LoggedFix {
   std::string source, talker;
@@ -62,10 +68,10 @@ class GpsReader {
     }
     std::vector<LoggedFix> fixes = whole_fixes();
     if (fixes.empty())
-      throw ProgramError(fmt::format(
-          "{}: expected sentences RMC, GGA or GNS with a valid position, but of those that it has {} "
-          "have a wrong checksum and {} have no position",
-          file_, damaged_, invalid_));
+      throw ProgramError(
+          fmt::format("{}: expected sentences RMC, GGA or GNS with a valid position, but of those that it "
+                      "has {} have a wrong checksum and {} have no position",
+                      file_, damaged_, invalid_));
     return table_of(fixes);
   }
 
@@ -201,16 +207,22 @@ class GpsReader {
     const auto first = std::ranges::find_if(own, [&](std::size_t k) { return all[k].day.has_value(); });
     const bool has_days = first != own.end();
     if (std::exchange(has_days_, has_days).value_or(has_days) != has_days)
-      throw ProgramError(
-          fmt::format("{}: expected a date (RMC or ZDA) for all receivers or for none, unlike "
-                      "for {}",
-                      file_, id));
-    PassingDays days(has_days ? *all[*first].day : std::chrono::sys_days{});
-    if (has_days && all[own.front()].clock.second > all[*first].clock.second + 43'200.0)
-      days.set(*all[*first].day - std::chrono::days(1));
+      throw ProgramError(fmt::format(
+          "{}: expected a date (RMC or ZDA) for all receivers or for none, unlike for {}", file_, id));
+    constexpr double half_a_day = 43'200.0;
+    std::chrono::sys_days day = has_days ? *all[*first].day : std::chrono::sys_days{};
+    if (has_days && all[own.front()].clock.second > all[*first].clock.second + half_a_day)
+      day -= std::chrono::days(1);
+    // A clock that falls by half a day or more has passed midnight.
+    std::optional<double> before;
     for (const std::size_t k : own) {
-      if (all[k].day) days.set(*all[k].day);
-      all[k].day = days.day_of(all[k].clock);
+      const double second = all[k].clock.second;
+      if (all[k].day)
+        day = *all[k].day;
+      else if (before && second < *before - half_a_day)
+        day += std::chrono::days(1);
+      all[k].day = day;
+      before = second;
     }
   }
 

@@ -25,16 +25,14 @@ RowTable table_with_positions(JsonRows rows, const std::string& file, bool is_li
   });
   const std::string& list = rows.long_list();
   if (!list.empty() && !has_position && rows.has_several_lists())
-    throw ProgramError(
-        fmt::format("{}: expected records with a position each, but they are in several lists, such as '{}': "
-                    "if each is of "
-                    "one body, say jq -c 'to_entries[] | {{id: .key}} + .value[]' FILE | kinesphere tracks -",
-                    file, list));
+    throw ProgramError(fmt::format(
+        "{}: expected records with a position each, but they are in several lists, such as '{}': if each is "
+        "of one body, say jq -c 'to_entries[] | {{id: .key}} + .value[]' FILE | kinesphere tracks -",
+        file, list));
   if (!list.empty() && !has_position)
     throw ProgramError(
         fmt::format("{0}: expected records with a position each, but they are in a list '{1}': say jq -c "
-                    "'{2}. + .{1}[] | "
-                    "del(.{1})' FILE | kinesphere tracks -",
+                    "'{2}. + .{1}[] | del(.{1})' FILE | kinesphere tracks -",
                     file, list, is_list ? ".[] | " : ""));
   return std::move(rows.table);
 }
@@ -105,61 +103,7 @@ RowTable trace_table(ondemand::document& document, bool geometric) {
   return table;
 }
 
-/// Returns the text behind an opening bracket and blanks; nothing for other text.
-std::optional<std::string_view> inside_bracket(std::string_view text, char bracket) {
-  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
-  if (!text.starts_with(bracket)) return std::nullopt;
-  text.remove_prefix(1);
-  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
-  return text;
-}
-
-/// A name, and the text behind its colon.
-struct FirstField {
-  std::string_view name, value;
-};
-
-/// Returns the first field of an object; an empty name where there is none.
-FirstField first_field(std::string_view object) {
-  const auto name = inside_bracket(inside_bracket(object, '{').value_or(""), '"');
-  const std::size_t end = name ? name->find('"') : std::string_view::npos;
-  if (end == std::string_view::npos) return {};
-  const auto value = inside_bracket(name->substr(end + 1), ':');
-  return value ? FirstField{name->substr(0, end), *value} : FirstField{};
-}
-
-/// True for a name of which a record has one value.
-bool is_name_of_values(std::string_view name) {
-  constexpr std::string_view activity[] = {"latlng", "distance", "velocity_smooth", "heartrate",   "cadence",
-                                           "watts",  "temp",     "moving",          "grade_smooth"};
-  return meaning_of(name).has_value() || std::ranges::find(activity, name) != std::end(activity);
-}
-
 }  // namespace
-
-bool is_columnar_json(std::string_view text) {
-  const auto [name, value] = first_field(inside_bracket(text, '[').value_or(text));
-  // A list of columns names each by its type.
-  if (name == "type") {
-    const std::string_view type = inside_bracket(value, '"').value_or("");
-    return is_name_of_values(type.substr(0, type.find('"'))) &&
-           text.substr(0, 200).find("\"data\"") != text.npos;
-  }
-  if (!is_name_of_values(name)) return false;
-  const FirstField inner = first_field(value);
-  return value.starts_with('[') || inner.name == "0" ||
-         (inner.name == "data" && inner.value.starts_with('['));
-}
-
-bool is_czml(std::string_view text) {
-  const FirstField first = first_field(inside_bracket(text, '[').value_or(""));
-  return first.name == "id" && inside_bracket(first.value, '"').value_or("").starts_with("document\"");
-}
-
-bool is_strava(std::string_view text) {
-  return is_columnar_json(text) &&
-         (text.find("\"latlng\"") != text.npos || text.find("\"series_type\"") != text.npos);
-}
 
 bool is_json_trace(std::string_view text) {
   const std::string_view begin = text.substr(0, 4096);

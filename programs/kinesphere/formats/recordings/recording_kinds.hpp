@@ -34,16 +34,10 @@ const RecordingKind* recording_kind_of(std::string_view beginning, const ColumnH
 
 // One file each.
 RowTable read_gpx(const RecordingText& recording);
-RowTable read_kml(const RecordingText& recording);
 RowTable read_fcd(const RecordingText& recording);
 RowTable read_xyz(const RecordingText& recording);
 RowTable read_lammps(const RecordingText& recording);
 RowTable read_gps_log(const RecordingText& recording);
-RowTable read_igc(const RecordingText& recording);
-RowTable read_plt(const RecordingText& recording);
-RowTable read_motion_capture(const RecordingText& recording);
-RowTable read_vissim(const RecordingText& recording);
-RowTable read_pneuma(const RecordingText& recording);
 RowTable read_oem(const RecordingText& recording);
 RowTable read_geojson(const RecordingText& recording);
 RowTable read_gtfs(const RecordingText& recording);
@@ -53,13 +47,8 @@ RowTable read_json_list(const RecordingText& recording);
 RowTable read_json_lines(const RecordingText& recording);
 
 // What a text is by its beginning.
-bool is_igc(std::string_view text);
 bool is_gps_log(std::string_view text);
 bool is_xyz(std::string_view text);
-bool is_vissim(std::string_view text);
-bool is_pneuma(std::string_view text);
-bool is_plt(std::string_view text);
-bool is_motion_capture(std::string_view text);
 bool is_json_trace(std::string_view text);
 bool is_geojson(std::string_view text);
 bool is_gtfs(std::string_view text);
@@ -68,15 +57,5 @@ bool is_asterix(std::string_view text);
 bool is_json_list(std::string_view text);
 /// An object in each line.
 bool are_json_lines(std::string_view text);
-/// Lists of values, one for each name, such as {"time":[0,1],"x":[2,3]}.
-bool is_columnar_json(std::string_view text);
-/// A document of CZML, for CesiumJS.
-bool is_czml(std::string_view text);
-/// Streams of an activity of Strava, which are such lists.
-bool is_strava(std::string_view text);
-
-/// Returns the name of the outermost element of XML, without a prefix; empty for other text, and where it
-/// comes later than this beginning.
-std::string_view root_element(std::string_view text);
 
 }  // namespace kinesphere::program

@@ -1,21 +1,17 @@
-// Recordings in XML, which expat reads: GPX, KML with times, and the FCD output of SUMO.
+// Recordings in XML, which expat reads: GPX, and the FCD output of SUMO.
 #include <fmt/format.h>
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "base/ascii_text.hpp"
-#include "base/number_text.hpp"
 #include "base/program_error.hpp"
-#include "formats/fields/line_text.hpp"
 #include "formats/recordings/recording_kinds.hpp"
-#include "formats/recordings/track_labels.hpp"
 #include "formats/tables/table_columns.hpp"
 
 #ifdef KINESPHERE_WITH_EXPAT
@@ -25,267 +21,81 @@
 namespace kinesphere::program {
 namespace {
 
-#ifdef KINESPHERE_WITH_EXPAT
+/// Returns a text of XML as a field of a table: on one line, without the blanks around it.
+[[maybe_unused]] std::string plain_text(std::string_view content) {
+  return std::string(trimmed(without_controls(std::string(content))));
+}
 
-/// Calls `begin` and `end` of a derived class for each element of a file.
-class XmlElements {
- public:
-  /// `kind` is what the file is, for messages.
-  XmlElements(const RecordingText& recording, std::string_view kind)
-      : text_(recording.text), file_(recording.file), kind_(kind), parser_(XML_ParserCreate(nullptr)) {
-    XML_SetUserData(parser_.get(), this);
-    XML_SetElementHandler(
-        parser_.get(),
-        [](void* self, const char* name, const char** attributes) {
-          static_cast<XmlElements*>(self)->content_.clear();
-          static_cast<XmlElements*>(self)->begin(local_name(name), attributes);
-        },
-        [](void* self, const char* name) { static_cast<XmlElements*>(self)->end(local_name(name)); });
-    XML_SetCharacterDataHandler(parser_.get(), [](void* self, const char* text_part, int size) {
-      static_cast<XmlElements*>(self)->content_.append(text_part, static_cast<std::size_t>(size));
-    });
-    // Entities of its own could make a small file huge.
-    XML_SetEntityDeclHandler(parser_.get(), [](void* self, const char*, int, const char*, int, const char*,
-                                               const char*, const char*, const char*) {
-      XML_StopParser(static_cast<XmlElements*>(self)->parser_.get(), XML_FALSE);
-    });
-  }
-  XmlElements(const XmlElements&) = delete;
-  XmlElements& operator=(const XmlElements&) = delete;
+/// An element that begins or ends, or the file that has it.
+struct XmlElement {
+  std::string_view name{};            ///< without a prefix
+  const char** attributes = nullptr;  ///< names and values in turn, and a null pointer behind them
+  std::size_t line = 0;
 
-  /// Reads the whole text. Throws ProgramError naming file and line.
-  void read_all() {
-    if (text_.size() > std::numeric_limits<int>::max())
-      throw ProgramError(fmt::format("{}: expected {} of less than 2 GiB", file_, kind_));
-    const XML_Status status = XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), 1);
-    if (!failure_.empty()) throw ProgramError(failure_);
-    if (status == XML_STATUS_ERROR)
-      throw ProgramError(fmt::format("{}:{}: expected {}: {}", file_, line(), kind_,
-                                     XML_ErrorString(XML_GetErrorCode(parser_.get()))));
-  }
-
- protected:
-  virtual ~XmlElements() = default;
-
-  /// `attributes` are names and values in turn, and a null pointer behind them.
-  virtual void begin(std::string_view name, const char** attributes) = 0;
-  virtual void end(std::string_view name) = 0;
-
-  /// The text since the last beginning of an element, as a field of a table.
-  std::string content() const { return plain(content_); }
-  /// Ends the reading: read_all() throws ProgramError with this text, naming file and line.
-  void fail(std::string_view text) {
-    if (failure_.empty()) failure_ = fmt::format("{}:{}: {}", file_, line(), text);
-    XML_StopParser(parser_.get(), XML_FALSE);
-  }
-  std::size_t line() const { return XML_GetCurrentLineNumber(parser_.get()); }
-  const std::string& file() const { return file_; }
   /// Returns an attribute as a field of a table; empty if there is none.
-  static std::string attribute(const char** attributes, std::string_view name) {
-    for (; *attributes != nullptr; attributes += 2)
-      if (attributes[0] == name) return plain(attributes[1]);
+  std::string operator[](std::string_view key) const {
+    for (const char** each = attributes; *each != nullptr; each += 2)
+      if (each[0] == key) return plain_text(each[1]);
     return {};
   }
+};
 
- private:
-  struct Free {
-    void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
-  };
+/// What is done with the elements of a file.
+struct XmlActions {
+  std::function<void(const XmlElement& element)> begin;
+  /// `content`: the text since the last beginning of an element, as a field of a table.
+  std::function<void(std::string_view name, const std::string& content)> end{};
+};
 
+#ifdef KINESPHERE_WITH_EXPAT
+
+/// Takes what expat tells.
+struct XmlHandler {
+  const XmlActions& actions;
+  std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser{
+      XML_ParserCreate(nullptr), XML_ParserFree};
+  std::string content{};
+
+  std::size_t line() const { return XML_GetCurrentLineNumber(parser.get()); }
   static std::string_view local_name(std::string_view name) { return name.substr(name.rfind(':') + 1); }
-  /// Returns the text on one line, without the blanks around it.
-  static std::string plain(std::string_view content) {
-    return std::string(trimmed(without_controls(std::string(content))));
-  }
+  static XmlHandler& of(void* self) { return *static_cast<XmlHandler*>(self); }
 
-  std::string_view text_;
-  const std::string& file_;
-  std::string_view kind_;
-  std::unique_ptr<std::remove_pointer_t<XML_Parser>, Free> parser_;
-  std::string content_;
-  std::string failure_;
+  static void begin(void* self, const char* name, const char** attributes) {
+    of(self).content.clear();
+    of(self).actions.begin({local_name(name), attributes, of(self).line()});
+  }
+  static void end(void* self, const char* name) {
+    if (of(self).actions.end) of(self).actions.end(local_name(name), plain_text(of(self).content));
+  }
+  static void add(void* self, const char* part, int size) {
+    of(self).content.append(part, static_cast<std::size_t>(size));
+  }
+  // Entities of its own could make a small file huge.
+  static void refuse_entity(void* self, const char*, int, const char*, int, const char*, const char*,
+                            const char*, const char*) {
+    XML_StopParser(of(self).parser.get(), XML_FALSE);
+  }
 };
 
-/// The points of tracks (trk).
-class GpxReader final : XmlElements {
- public:
-  using XmlElements::XmlElements;
-
-  RowTable read() {
-    read_all();
-    if (!has_times_)
-      throw ProgramError(
-          fmt::format("{}: expected tracks (trk) whose points have times, as receivers log them, but {}",
-                      file(), table_.size() == 0 ? "it has no tracks" : "none has a time"));
-    table_.use_heights_of_all(file());
-    return std::move(table_);
-  }
-
- private:
-  enum Column : std::size_t { of_time = 1, of_height = 4 };
-
-  void begin(std::string_view name, const char** attributes) override {
-    if (name == "trk") {
-      ++tracks_;
-      name_ = fmt::format("track {}", tracks_);
-      is_in_track_ = true;
-    } else if (name == "trkpt" && is_in_track_) {
-      is_in_point_ = true;
-      table_.add_row(line(), name_, "", attribute(attributes, "lon"), attribute(attributes, "lat"));
-    }
-  }
-  void end(std::string_view name) override {
-    if (name == "trk") is_in_track_ = false;
-    if (name == "trkpt") is_in_point_ = false;
-    if (is_in_point_ && name == "ele") table_.set(of_height, content());
-    if (is_in_point_ && name == "time") {
-      table_.set(of_time, content());
-      has_times_ = has_times_ || !content().empty();
-    }
-    if (is_in_track_ && !is_in_point_ && name == "name") name_ = labels_.label(content());
-  }
-
-  RowTable table_{"GPX", {"id", "time", "lon", "lat", "ele"}};
-  std::string name_;
-  TrackLabels labels_;
-  std::size_t tracks_ = 0;
-  bool is_in_track_ = false, is_in_point_ = false, has_times_ = false;
-};
-
-/// Tracks with times (gx:Track).
-class KmlReader final : XmlElements {
- public:
-  using XmlElements::XmlElements;
-
-  RowTable read() {
-    read_all();
-    if (table_.size() == 0)
-      throw ProgramError(fmt::format(
-          "{}: expected tracks with times (gx:Track), but there are none: other lines of KML have "
-          "no times",
-          file()));
-    table_.use_heights_of_all(file());
-    if (has_other_heights_)
-      table_.warnings.push_back(fmt::format(
-          "{}: heights whose altitudeMode is not absolute are not above the sea, and are not used", file()));
-    return std::move(table_);
-  }
-
- private:
-  struct Place {
-    std::string longitude, latitude, height;
-    std::size_t line = 0;
-  };
-
-  void begin(std::string_view name, const char**) override {
-    if (name == "Placemark") {
-      name_ = fmt::format("track {}", ++placemarks_);
-      has_label_ = false;
-    }
-    if (name != "Track") return;
-    // All tracks of a placemark are one body.
-    if (!std::exchange(has_label_, true)) name_ = labels_.label(name_);
-    is_in_track_ = true;
-    has_heights_ = false;
-    times_.clear();
-    places_.clear();
-  }
-  void end(std::string_view name) override {
-    if (name == "name" && !is_in_track_) name_ = content();
-    if (!is_in_track_) return;
-    // Others are above ground, or have none.
-    if (name == "altitudeMode") has_heights_ = content() == "absolute";
-    if (name == "when") times_.push_back(content());
-    if (name == "coord") add_place(words_of(content()));
-    if (name == "Track") end_track();
-  }
-
-  void add_place(const std::vector<std::string_view>& words) {
-    const auto word = [&](std::size_t place) {
-      return std::string(place < words.size() ? words[place] : "");
-    };
-    has_other_heights_ = has_other_heights_ || (!has_heights_ && parse_number(word(2)).value_or(0.0) != 0.0);
-    places_.push_back({word(0), word(1), has_heights_ ? word(2) : "", line()});
-  }
-  void end_track() {
-    is_in_track_ = false;
-    if (times_.size() != places_.size())
-      return fail(fmt::format("expected as many times as places of track '{}', but got {} and {}", name_,
-                              times_.size(), places_.size()));
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-      const Place& place = places_[k];
-      table_.add_row(place.line, name_, times_[k], place.longitude, place.latitude, place.height);
-    }
-  }
-
-  RowTable table_{"KML", {"id", "time", "lon", "lat", "alt"}};
-  std::vector<Place> places_;       ///< of the track
-  std::vector<std::string> times_;  ///< of the track
-  std::string name_;                ///< of the placemark
-  TrackLabels labels_;
-  std::size_t placemarks_ = 0;
-  bool is_in_track_ = false, has_heights_ = false, has_other_heights_ = false, has_label_ = false;
-};
-
-/// Vehicles and persons at each time step. Vehicles have their id; those of persons and containers are other
-/// names, so that they begin with the kind. Sizes are attributes of them, or of their type where the file has
-/// it.
-class FcdReader final : XmlElements {
- public:
-  FcdReader(const RecordingText& recording, std::string_view kind) : XmlElements(recording, kind) {
-    table_.place_on_body = TableColumns::Place::front;
-    // The heights have to be the last column.
-    if (recording.text.find(" length=") != recording.text.npos)
-      for (const char* const name : sizes) table_.column_of(fmt::format("vehicle_{}", name));
-    height_ = table_.column_of("z");
-  }
-
-  RowTable read() {
-    read_all();
-    table_.use_heights_of_all(file());
-    return std::move(table_);
-  }
-
- private:
-  void begin(std::string_view name, const char** attributes) override {
-    if (name == "timestep") time_ = attribute(attributes, "time");
-    const auto value = [&](std::string_view of) { return attribute(attributes, of); };
-    if (name == "vType")
-      for (const char* const size : sizes) types_[value("id") + '/' + size] = value(size);
-    if (name != "vehicle" && name != "person" && name != "container") return;
-    const std::string kind = name == "vehicle" ? "" : std::string(name) + ' ';
-    table_.add_row(line(), kind + value("id"), time_, value("x"), value("y"), value("speed"), value("angle"));
-    for (std::size_t k = 0; first_size + k < height_; ++k) {
-      const std::string own = value(sizes[k]);
-      table_.set(first_size + k, own.empty() ? types_[value("type") + '/' + sizes[k]] : own);
-    }
-    table_.set(height_, value("z"));
-  }
-  void end(std::string_view) override {}
-
-  /// Metres per second, and degrees clockwise from north.
-  RowTable table_{"SUMO FCD", {"vehicle_id", "time", "x", "y", "speed", "course"}};
-  static constexpr const char* sizes[] = {"length", "width", "height"};
-  static constexpr std::size_t first_size = 6;
-  std::size_t height_;                        ///< column
-  std::map<std::string, std::string> types_;  ///< sizes, by type/name
-  std::string time_;
-};
-
-/// Returns the rows. `kind` is what the file is, for messages.
-template <class Reader>
-RowTable read_xml(const RecordingText& recording, std::string_view kind) {
-  return Reader(recording, kind).read();
+/// Reads the whole file. `kind` is what it is, for messages. Throws ProgramError naming file and line.
+void read_xml(const RecordingText& recording, std::string_view kind, const XmlActions& actions) {
+  if (recording.text.size() > std::numeric_limits<int>::max())
+    throw ProgramError(fmt::format("{}: expected {} of less than 2 GiB", recording.file, kind));
+  XmlHandler handler{actions};
+  XML_Parser parser = handler.parser.get();
+  XML_SetUserData(parser, &handler);
+  XML_SetElementHandler(parser, XmlHandler::begin, XmlHandler::end);
+  XML_SetCharacterDataHandler(parser, XmlHandler::add);
+  XML_SetEntityDeclHandler(parser, XmlHandler::refuse_entity);
+  const auto size = static_cast<int>(recording.text.size());
+  if (XML_Parse(parser, recording.text.data(), size, 1) == XML_STATUS_ERROR)
+    throw ProgramError(fmt::format("{}:{}: expected {}: {}", recording.file, handler.line(), kind,
+                                   XML_ErrorString(XML_GetErrorCode(parser))));
 }
 
 #else
 
-class GpxReader;
-class KmlReader;
-class FcdReader;
-
-template <class>
-RowTable read_xml(const RecordingText& recording, std::string_view kind) {
+void read_xml(const RecordingText& recording, std::string_view kind, const XmlActions&) {
   throw ProgramError(fmt::format("{}: {} needs expat, and this program was built without it (libexpat1-dev)",
                                  recording.file, kind));
 }
@@ -294,10 +104,76 @@ RowTable read_xml(const RecordingText& recording, std::string_view kind) {
 
 }  // namespace
 
-RowTable read_gpx(const RecordingText& recording) { return read_xml<GpxReader>(recording, "GPX"); }
-RowTable read_kml(const RecordingText& recording) { return read_xml<KmlReader>(recording, "KML"); }
+/// The points of tracks (trk).
+RowTable read_gpx(const RecordingText& recording) {
+  enum GpxColumn : std::size_t { of_time = 1, of_height = 4 };
+  RowTable table("GPX", {"id", "time", "lon", "lat", "ele"});
+  std::string track;
+  std::size_t tracks = 0;
+  bool is_in_track = false, is_in_point = false, has_times = false;
+  const auto begin = [&](const XmlElement& element) {
+    if (element.name == "trk") {
+      track = fmt::format("track {}", ++tracks);
+      is_in_track = true;
+    } else if (element.name == "trkpt" && is_in_track) {
+      is_in_point = true;
+      table.add_row(element.line, track, "", element["lon"], element["lat"]);
+    }
+  };
+  const auto end = [&](std::string_view name, const std::string& content) {
+    if (name == "trk") is_in_track = false;
+    if (name == "trkpt") is_in_point = false;
+    if (is_in_point && name == "ele") table.set(of_height, content);
+    if (is_in_point && name == "time") {
+      table.set(of_time, content);
+      has_times = has_times || !content.empty();
+    }
+    if (is_in_track && !is_in_point && name == "name") track = table.label(content);
+  };
+  read_xml(recording, "GPX", {begin, end});
+  if (!has_times)
+    throw ProgramError(
+        fmt::format("{}: expected tracks (trk) whose points have times, as receivers log them, but {}",
+                    recording.file, table.size() == 0 ? "it has no tracks" : "none has a time"));
+  table.use_heights_of_all(recording.file);
+  return table;
+}
+
+/// Vehicles and persons at each time step, in metres per second, and degrees clockwise from north. Vehicles
+/// have their id; those of persons and containers are other names, so that they begin with the kind. Sizes
+/// are attributes of them, or of their type where the file has it.
 RowTable read_fcd(const RecordingText& recording) {
-  return read_xml<FcdReader>(recording, "FCD output of SUMO");
+  constexpr std::string_view sizes[] = {"length", "width", "height"};
+  constexpr std::size_t first_size = 6;
+  RowTable table("SUMO FCD", {"vehicle_id", "time", "x", "y", "speed", "course"});
+  table.place_on_body = TableColumns::Place::front;
+  // The heights have to be the last column.
+  if (recording.text.find(" length=") != recording.text.npos)
+    for (const std::string_view name : sizes) table.column_of(fmt::format("vehicle_{}", name));
+  const std::size_t height = table.column_of("z");
+  std::map<std::string, std::string> types;  // sizes, by type/name
+  std::string time;
+  const auto size_of = [&](const std::string& type, std::string_view size) -> std::string& {
+    return types[fmt::format("{}/{}", type, size)];
+  };
+  const auto begin = [&](const XmlElement& element) {
+    const std::string_view name = element.name;
+    if (name == "timestep") time = element["time"];
+    if (name == "vType")
+      for (const std::string_view size : sizes) size_of(element["id"], size) = element[size];
+    if (name != "vehicle" && name != "person" && name != "container") return;
+    const std::string kind = name == "vehicle" ? "" : std::string(name) + ' ';
+    table.add_row(element.line, kind + element["id"], time, element["x"], element["y"], element["speed"],
+                  element["angle"]);
+    for (std::size_t k = 0; first_size + k < height; ++k) {
+      const std::string own = element[sizes[k]];
+      table.set(first_size + k, own.empty() ? size_of(element["type"], sizes[k]) : own);
+    }
+    table.set(height, element["z"]);
+  };
+  read_xml(recording, "FCD output of SUMO", {begin});
+  table.use_heights_of_all(recording.file);
+  return table;
 }
 
 }  // namespace kinesphere::program

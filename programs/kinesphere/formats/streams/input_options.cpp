@@ -21,8 +21,7 @@ void add_input_options(CLI::App& command, FormatChoices& choices, const char* po
       ->check(CLI::Validator(unknown_format, "", "format"));
   add("--columns", hints.columns,
       "Of tables: where what is, by name or number from 1, and its unit: "
-      "id=...,time=...:ms,x=...,y=...[,z=...:ft], "
-      "or lon=...,lat=... in place of x and y",
+      "id=...,time=...:ms,x=...,y=...[,z=...:ft], or lon=...,lat=... in place of x and y",
       "LIST");
   add("--where", hints.where,
       "Only rows for which this holds: comparisons of columns (= != < <= > >=) joined by and, or, not, ()",

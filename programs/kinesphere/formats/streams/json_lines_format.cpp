@@ -77,11 +77,11 @@ class JsonLinesFormat final : public ReportFormat {
     } else if (key == "velocity_error") {
       fields_.velocity_error = error_in(value, key);
     } else {
-      throw MalformedRecord(fmt::format(
-          "expected id, name, stamp, arrival, position, velocity, position_error, velocity_error, "
-          "stamp_error, lat, lon or alt, but got \"{}\" (--format json takes any names, as columns of a "
-          "table)",
-          key.substr(0, 40)));
+      throw MalformedRecord(
+          fmt::format("expected id, name, stamp, arrival, position, velocity, position_error, "
+                      "velocity_error, stamp_error, lat, lon or alt, but got \"{}\" (--format json takes any "
+                      "names, as columns of a table)",
+                      key.substr(0, 40)));
     }
   }
 

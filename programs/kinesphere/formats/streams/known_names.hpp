@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -39,17 +38,12 @@ class RecentValues {
     return value != nullptr ? *value : Value{};
   }
 
-  nlohmann::json save() const {
-    const auto pairs = [](const auto& values) {
-      auto all = nlohmann::json::array();
-      for (const auto& [key, value] : values) all.push_back({key, value});
-      return all;
-    };
-    return {{"recent", pairs(recent_)}, {"earlier", pairs(earlier_)}};
-  }
-  void restore(const nlohmann::json& state) {
-    for (auto& [name, values] : {std::pair{"recent", &recent_}, {"earlier", &earlier_}})
-      for (const auto& each : state.at(name)) (*values)[each.at(0).template get<Key>()] = each.at(1);
+  /// Returns how many values are kept; some may be there twice.
+  std::size_t size() const { return recent_.size() + earlier_.size(); }
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [recent, earlier] = self;
+    archive(recent, earlier);
   }
 
  private:
@@ -71,21 +65,25 @@ inline std::string_view shown_name(std::string_view name) {
   return name.substr(0, name.find_last_not_of(blank_bytes) + 1);
 }
 
-class KnownNames : private RecentValues<std::string, std::string> {
+class KnownNames {
  public:
-  using RecentValues::most;
-  using RecentValues::restore;
-  using RecentValues::save;
+  using Values = RecentValues<std::string, std::string>;
 
   /// Sets the name of a track to shown_name() of it; an empty one changes nothing.
   void set(std::string_view id, std::string_view name) {
-    if (name = shown_name(name); !name.empty()) RecentValues::set(std::string(id), std::string(name));
+    if (name = shown_name(name); !name.empty()) names_.set(std::string(id), std::string(name));
   }
   /// Returns the name, valid until the next call; empty if it is not known.
   std::string_view name_of(std::string_view id) {
-    const std::string* const name = find(std::string(id));
+    const std::string* const name = names_.find(std::string(id));
     return name != nullptr ? std::string_view(*name) : std::string_view();
   }
+  std::size_t size() const { return names_.size(); }
+
+  static void serialize(auto& self, auto& archive) { archive(self.names_); }
+
+ private:
+  Values names_;
 };
 
 }  // namespace kinesphere::program

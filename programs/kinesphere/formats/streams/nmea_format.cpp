@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,7 +39,7 @@ constexpr MotionPreset nmea_presets[] = {MotionPreset::vessel_at_rest, MotionPre
                                          MotionPreset::wing_in_ground, MotionPreset::aid_to_navigation,
                                          MotionPreset::search_aircraft};
 
-class NmeaFormat final : public ReportFormat {
+class NmeaFormat final : public RememberingFormat<NmeaFormat> {
  public:
   explicit NmeaFormat(FormatChoices choices)
       : choices_(std::move(choices)),
@@ -75,33 +74,9 @@ class NmeaFormat final : public ReportFormat {
           "$GPGGA of receivers of GPS are read from a file, or a pipe that ends, without --format)");
   }
 
-  nlohmann::json save() const override {
-    auto untimed = nlohmann::json::array();
-    for (const Untimed& each : untimed_) untimed.push_back({each.bits.digits(), each.line});
-    return {{"sentences", assembler_.save()},
-            {"sizes", sizes_.save()},
-            {"names", names_.save()},
-            {"types", types_.save()},
-            {"group", group_},
-            {"group_time", saved(group_time_)},
-            {"announced", saved(announced_)},
-            {"has_sentences", has_sentences_},
-            {"latest", saved(latest_)},
-            {"untimed", untimed}};
-  }
-  void restore(const nlohmann::json& state) override {
-    assembler_.restore(state.at("sentences"));
-    sizes_.restore(state.at("sizes"));
-    names_.restore(state.at("names"));
-    types_.restore(state.at("types"));
-    group_ = state.at("group");
-    group_time_ = restored(state.at("group_time"));
-    announced_ = restored(state.at("announced"));
-    has_sentences_ = state.at("has_sentences");
-    latest_ = restored(state.at("latest"));
-    untimed_.clear();
-    for (const auto& each : state.at("untimed"))
-      untimed_.push_back({AisBits::of_digits(each.at(0).get<std::string>()), each.at(1)});
+  static void serialize(auto& self, auto& archive) {
+    archive(self.assembler_, self.sizes_, self.names_, self.types_, self.group_, self.group_time_,
+            self.announced_, self.has_sentences_, self.latest_, self.untimed_);
   }
 
  private:
@@ -110,15 +85,6 @@ class NmeaFormat final : public ReportFormat {
     AisBits bits;
     std::size_t line = 0;
   };
-
-  static nlohmann::json saved(const std::optional<TimeField>& time) {
-    if (!time) return nullptr;
-    return {time->time.whole, time->time.fraction, time->time.rest, static_cast<int>(time->kind)};
-  }
-  static std::optional<TimeField> restored(const nlohmann::json& saved) {
-    if (saved.is_null()) return std::nullopt;
-    return TimeField{{saved.at(0), saved.at(1), saved.at(2)}, static_cast<TimeKind>(saved.at(3).get<int>())};
-  }
 
   void read_line(const Record& record, ReportSink& sink) {
     NmeaLine line = parse_nmea_line(record.text);
@@ -194,18 +160,16 @@ class NmeaFormat final : public ReportFormat {
     sink.refuse(line, "expected a time of receipt, in this line or in others around it");
   }
   [[noreturn]] void fail_without_times() const {
-    const std::string before =
-        before_first_.empty()
-            ? ""
-            : fmt::format(
-                  " that is read (before the first stands {}, no date and clock as in 2024-01-31T12:30:15Z "
-                  "and no seconds since 1970)",
-                  shown_field(before_first_));
+    const std::string before = before_first_.empty()
+                                   ? ""
+                                   : fmt::format(
+                                         " that is read (before the first stands {}, no date and clock as in "
+                                         "2024-01-31T12:30:15Z and no seconds since 1970)",
+                                         shown_field(before_first_));
     throw UnusableStream(fmt::format(
         "expected the time at which each sentence was received, but there is none{}: record it in a tag "
-        "block "
-        "(\\c:1700000000*5F\\!AIVDM...) or before the sentence; what comes from a receiver right now can be "
-        "read from udp://, a device, or standard input with --clock arrival",
+        "block (\\c:1700000000*5F\\!AIVDM...) or before the sentence; what comes from a receiver right now "
+        "can be read from udp://, a device, or standard input with --clock arrival",
         before));
   }
 
@@ -289,17 +253,8 @@ class NmeaFormat final : public ReportFormat {
     report.category = category_of(position.station);
   }
   static std::string_view category_of(AisStation station) {
-    switch (station) {
-      case AisStation::class_a:
-        return "A";
-      case AisStation::class_b:
-        return "B";
-      case AisStation::search_aircraft:
-        return "search aircraft";
-      case AisStation::aid_to_navigation:
-        break;
-    }
-    return "aid to navigation";
+    constexpr std::string_view names[] = {"A", "B", "search aircraft", "aid to navigation"};
+    return names[static_cast<std::size_t>(station)];
   }
 
   static void add_velocity(const AisPosition& position, SourceReport& report) {

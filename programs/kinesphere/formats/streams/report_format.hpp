@@ -3,20 +3,30 @@
 
 #include <functional>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "archive/archive.hpp"
 #include "formats/streams/source_report.hpp"
 #include "formats/tables/record_cutter.hpp"
 #include "formats/tables/row_splitter.hpp"
-#include "formats/tables/stream_format.hpp"
 #include "formats/tables/table_columns.hpp"
 
 namespace kinesphere::program {
+
+/// Tables are `csv`, and `ais` where their tracks are ships. `json` are JSON records in lines, and
+/// `recording` is what is read as a whole; both have rows of a table. The others are messages.
+enum class StreamFormat { readsb, sbs, opensky, ais, nmea, csv, jsonl, json, recording };
+/// True for what a file shows as a recording, and not as the text of a table.
+constexpr bool is_read_whole(StreamFormat format) {
+  return format == StreamFormat::json || format == StreamFormat::recording;
+}
+constexpr bool is_table(StreamFormat format) {
+  return format == StreamFormat::csv || format == StreamFormat::ais || is_read_whole(format);
+}
 
 /// A stream has nothing that can be used; the message says what was expected, without the stream's name.
 class UnusableStream : public std::runtime_error {
@@ -35,11 +45,20 @@ class ReportFormat {
   /// Returns what kind of recording was read; empty for other formats.
   virtual std::string_view title() const { return {}; }
   /// Call it at the end of the stream. Throws UnusableStream.
-  virtual void finish(ReportSink& sink);
-  /// Returns the state from earlier records, for a run that continues behind them.
-  virtual nlohmann::json save() const;
-  /// Restores the state of save(). Throws ProgramError like read(), or an exception of nlohmann::json.
-  virtual void restore(const nlohmann::json& state);
+  virtual void finish(ReportSink& /*sink*/) {}
+  /// Writes the state from earlier records, for a run that continues behind them.
+  virtual void save(ByteWriter& /*state*/) const {}
+  /// Restores the state of save(); it has failed if it is none of this format. Throws ProgramError like
+  /// read().
+  virtual void restore(ByteReader& /*state*/) {}
+};
+
+/// A format that remembers the fields that its serialize() names.
+template <class Format>
+class RememberingFormat : public ReportFormat {
+ public:
+  void save(ByteWriter& state) const final { Format::serialize(static_cast<const Format&>(*this), state); }
+  void restore(ByteReader& state) final { Format::serialize(static_cast<Format&>(*this), state); }
 };
 
 /// Returns "readsb" and so on.
@@ -51,6 +70,12 @@ std::optional<StreamFormat> format_named(std::string_view name, std::string_view
 /// says or, without it, as the text shows; of these recordings come first, then messages, and --columns
 /// implies a table. Nothing if it is ambiguous: a table, or too little of a text.
 std::optional<StreamFormat> format_of_text(std::string_view beginning, const ColumnHints& hints);
+/// Returns the first line that says something, which comments of one column do not: of JSON over several
+/// lines, the lines up to the first with a key. Empty if it has not ended yet.
+std::string_view first_line(std::string_view beginning);
+/// Returns the format of a stream that begins with this text, its first line or a part of it; nothing if it
+/// is ambiguous.
+std::optional<StreamFormat> recognised_format(std::string_view beginning);
 /// Returns the names of all formats of messages and of all presets of tables, separated by |.
 std::string format_names();
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -66,19 +65,15 @@ class ReportsOfRows final : public RowReports {
   }
   const RowReader* rows() const override { return reader_ ? &*reader_ : nullptr; }
 
-  nlohmann::json save() const override {
-    nlohmann::json state{{"midnights", midnights_}};
-    if (last_clock_) state["clock"] = *last_clock_;
-    if (reader_) state["dates"] = static_cast<int>(reader_->columns().dates);
-    return state;
+  void save(ByteWriter& state) const override {
+    state(midnights_, last_clock_, reader_ ? reader_->columns().dates : DateOrder::unknown);
   }
-  void restore(const nlohmann::json& state) override {
-    midnights_ = state.at("midnights");
-    if (state.contains("clock")) last_clock_ = state.at("clock").get<std::int64_t>();
+  void restore(ByteReader& state) override {
+    DateOrder dates = DateOrder::unknown;
+    state(midnights_, last_clock_, dates);
     if (head_.columns() > 0) begin();
     has_handed_over_ = reader_.has_value();
-    if (reader_ && state.contains("dates"))
-      reader_->set_dates(static_cast<DateOrder>(state.at("dates").get<int>()));
+    if (reader_) reader_->set_dates(dates);
     // The earlier run has asked.
     if (reader_) checked_ = most_checked;
     is_checking_clock_ = false;
@@ -291,10 +286,10 @@ class ReportsOfRows final : public RowReports {
   void ask_about_row_numbers() const {
     const auto& id = reader_->columns()[Quantity::id];
     if (!id || checked_ < 3 || !counts_rows_ || !has_later_ || reader_->filter().mentions(id->place)) return;
-    throw UnusableStream(fmt::format(
-        "each row has an id of its own in column {}, up to {}, as a row number is: say id=... with "
-        "--columns, or keep it with --where 'id != none'",
-        id->place + 1, *last_number_));
+    throw UnusableStream(
+        fmt::format("each row has an id of its own in column {}, up to {}, as a row number is: say id=... "
+                    "with --columns, or keep it with --where 'id != none'",
+                    id->place + 1, *last_number_));
   }
   /// Asks about lengths that may be degrees.
   void ask_about_degrees() const {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 #include <vector>
 
@@ -24,40 +23,15 @@ class RowReports {
   virtual void finish() const = 0;
   /// Returns the reader of the rows; null before the first of them.
   virtual const RowReader* rows() const = 0;
-  /// Returns the state from earlier rows, without the head of the table.
-  virtual nlohmann::json save() const = 0;
+  /// Writes the state from earlier rows, without the head of the table.
+  virtual void save(ByteWriter& state) const = 0;
   /// Restores the state of save(). Precondition: the head is as it was then.
-  virtual void restore(const nlohmann::json& state) = 0;
+  virtual void restore(ByteReader& state) = 0;
 };
 
 /// `head` must outlive it, and is complete with the first row. `is_ais`: the tracks are ships. `recording`:
 /// the rows are those of this one, which must outlive it; null for a table.
 std::unique_ptr<RowReports> make_row_reports(const TableHead& head, const FormatChoices& choices,
                                              bool is_ais = false, const RowTable* recording = nullptr);
-
-/// Rows whose names of columns are known before, with a head of their own.
-class NamedRows {
- public:
-  NamedRows(const RowTable& table, const FormatChoices& choices)
-      : head_(choices.source), reports_(make_row_reports(head_.head(), choices, false, &table)) {
-    head_.set_separator(',');
-    for (const std::string& comment : table.comments) head_.comment(comment);
-    head_.row({table.names().begin(), table.names().end()});
-  }
-  NamedRows(const NamedRows&) = delete;
-  NamedRows& operator=(const NamedRows&) = delete;
-
-  void read(const std::vector<std::string_view>& fields, std::size_t line, ReportSink& sink) {
-    if (head_.row(fields)) reports_->read(fields, line, sink);
-  }
-  /// Takes the first row of values, of which nothing is reported.
-  void take_first(const std::vector<std::string_view>& fields) { head_.row(fields); }
-  const TableHead& head() const { return head_.head(); }
-  RowReports& reports() const { return *reports_; }
-
- private:
-  TableHeadReader head_;
-  std::unique_ptr<RowReports> reports_;
-};
 
 }  // namespace kinesphere::program

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -25,7 +24,7 @@ constexpr std::size_t message = 0, type = 1, hex = 4, made_date = 6, made_time =
                       longitude = 15, climb = 16, count = 17, on_ground = 21;
 }
 
-class SbsFormat final : public ReportFormat {
+class SbsFormat final : public RememberingFormat<SbsFormat> {
  public:
   explicit SbsFormat(FormatChoices choices) : choices_(std::move(choices)) { row_.set_separator(','); }
 
@@ -61,19 +60,7 @@ class SbsFormat final : public ReportFormat {
     sink.take(report_at(made, logged.time));
   }
 
-  nlohmann::json save() const override {
-    auto velocities = nlohmann::json::array();
-    for (const auto& [hex, known] : velocities_)
-      velocities.push_back({hex, known.time.whole, known.time.fraction, known.velocity.x, known.velocity.y,
-                            known.velocity.z, known.has_climb, known.velocity_spread});
-    return {{"velocities", velocities}, {"callsigns", callsigns_.save()}};
-  }
-  void restore(const nlohmann::json& state) override {
-    callsigns_.restore(state.at("callsigns"));
-    for (const auto& known : state.at("velocities"))
-      velocities_[known.at(0)] = {
-          {known.at(1), known.at(2)}, {known.at(3), known.at(4), known.at(5)}, known.at(6), known.at(7)};
-  }
+  static void serialize(auto& self, auto& archive) { archive(self.velocities_, self.callsigns_); }
 
  private:
   struct Velocity {

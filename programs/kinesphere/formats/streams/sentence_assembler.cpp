@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <span>
 
 namespace kinesphere::program {
@@ -91,43 +90,6 @@ std::optional<SentenceAssembler::Message> SentenceAssembler::add(const NmeaLine&
 void SentenceAssembler::finish(ReportSink& sink) {
   for (const Waiting& waiting : waiting_) drop(waiting, sink);
   waiting_.clear();
-}
-
-nlohmann::json SentenceAssembler::save() const {
-  auto all = nlohmann::json::array();
-  for (const Waiting& each : waiting_) {
-    auto parts = nlohmann::json::array();
-    for (const Part& part : each.parts) parts.push_back({part.payload, part.fill_bits});
-    auto received = nlohmann::json();
-    if (each.received)
-      received = {each.received->time.whole, each.received->time.fraction,
-                  static_cast<int>(each.received->kind)};
-    all.push_back({each.count, each.sequence, each.channel, each.source, each.group, received, each.begun,
-                   each.line, parts});
-  }
-  return {sentences_, all};
-}
-
-void SentenceAssembler::restore(const nlohmann::json& state) {
-  sentences_ = state.at(0);
-  waiting_.clear();
-  for (const auto& saved : state.at(1)) {
-    Waiting each{.count = saved.at(0),
-                 .sequence = saved.at(1),
-                 .channel = saved.at(2),
-                 .source = saved.at(3),
-                 .group = saved.at(4),
-                 .received = std::nullopt,
-                 .begun = saved.at(6),
-                 .line = saved.at(7),
-                 .parts = {}};
-    if (const auto& received = saved.at(5); !received.is_null())
-      each.received =
-          TimeField{{received.at(0), received.at(1)}, static_cast<TimeKind>(received.at(2).get<int>())};
-    for (std::size_t k = 0; k < each.parts.size(); ++k)
-      each.parts[k] = {saved.at(8).at(k).at(0), saved.at(8).at(k).at(1)};
-    waiting_.push_back(std::move(each));
-  }
 }
 
 }  // namespace kinesphere::program

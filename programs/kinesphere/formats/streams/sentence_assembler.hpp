@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,9 +32,13 @@ class SentenceAssembler {
   std::optional<Message> add(const NmeaLine& line, std::size_t line_number, ReportSink& sink);
   /// Drops all that waits. Call it at the end of the stream.
   void finish(ReportSink& sink);
+  /// Returns how many messages wait.
+  std::size_t waiting() const { return waiting_.size(); }
 
-  nlohmann::json save() const;
-  void restore(const nlohmann::json& state);
+  static void serialize(auto& self, auto& archive) {
+    auto& [waiting, sentences] = self;
+    archive(waiting, sentences);
+  }
 
  private:
   struct Part {

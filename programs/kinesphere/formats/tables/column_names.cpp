@@ -150,10 +150,39 @@ bool has_word(std::string_view name, std::string_view words) {
   return any_word(separate, [&](std::string_view word) { return is_word_of(word, words); });
 }
 
-/// True if one of `parts` is in the plain name.
-bool has_part(const std::string& plain, std::string_view parts) {
-  return any_word(parts, [&](std::string_view part) { return plain.find(part) != std::string::npos; });
-}
+/// Words of names. *altitud may stand anywhere in a plain name, ~alt is a word of a name, also of camelCase,
+/// and others are whole names.
+struct HintWords {
+  NameHint hint;
+  std::string_view words;
+};
+
+/// In the order of NameHint.
+constexpr HintWords hint_words[] = {
+    // The last two parts are Höhe in UTF-8 and in Latin 1.
+    {NameHint::height,
+     "*altitud *altura *elevation *height *flightlevel *hoehe *hauteur *geoalt *gpsalt *baroalt *relalt "
+     "*altgeo *altbaro *h\xC3\xB6he *h\xF6"
+     "he "
+     "~z ~alt ~alti ~galt ~elev ~h ~hgt ~fl ~afl ~cfl ~msl ~amsl ~agl ~hae ~depth ~tiefe ~up ~down "
+     "level lvl floor storey story etage deck quota modec vertical zcoord coordz"},
+    {NameHint::longitude, "*longitud *l\xC3\xA4ngengrad *laengengrad ~lon ~lng ~long"},
+    {NameHint::latitude, "*latitud *breitengrad ~lat"},
+    {NameHint::part_of_time,
+     "~nsec ~nsecs ~nanosec ~nanosecs ~nanoseconds ~usec ~usecs ~microsec ~microseconds ~msec ~msecs ~millis "
+     "~millisec ~fraction gpsweek gpswk"},
+    {NameHint::part_of_clock,
+     "seconds secs sec second minutes minute mins min hours hour hrs hr milliseconds"},
+    {NameHint::scene,
+     "scene scenario case recording session trial video clip match game experiment replicate run "
+     "simulation arena camera cam cameraid sensor tank cage well plate period half quarter"},
+    {NameHint::id,
+     "name label vehicle vessel ship boat car robot player bird fish mouse cell device callsign flight "
+     "subject target who imei serial"},
+    {NameHint::aircraft, "icao icao24 hex modes squawk callsign flight registration altbaro altgeom"},
+    {NameHint::zone,
+     "zone utmzone gridzone map mapid building buildingid floorid levelid centername refframe timesystem tz "
+     "timezone utcoffset tzoffset timezoneoffset"}};
 
 }  // namespace
 
@@ -263,32 +292,19 @@ std::string_view unit_in_name(std::string_view column_name, Measure measure) {
   return {};
 }
 
-bool looks_like_height(std::string_view column_name) {
+bool hints_at(std::string_view column_name, NameHint hint) {
   // The h of km_h is an hour.
-  if (!unit_in_name(column_name, Measure::speed).empty()) return false;
-  const std::string plain = plain_name(column_name);
-  // The last two are Höhe in UTF-8 and in Latin 1.
-  return has_part(
-             plain,
-             "altitud altura elevation height flightlevel hoehe hauteur geoalt gpsalt baroalt relalt altgeo "
-             "altbaro h\xC3\xB6he h\xF6"
-             "he") ||
-         has_word(column_name,
-                  "z alt alti galt elev h hgt fl afl cfl msl amsl agl hae depth tiefe up down") ||
-         is_word_of(plain, "level lvl floor storey story etage deck quota modec vertical zcoord coordz");
-}
-
-bool is_part_of_time(std::string_view column_name) {
-  return has_word(
-             column_name,
-             "nsec nsecs nanosec nanosecs nanoseconds usec usecs microsec microseconds msec msecs millis "
-             "millisec fraction") ||
-         is_word_of(plain_name(column_name), "gpsweek gpswk");
-}
-
-bool is_part_of_clock(std::string_view column_name) {
-  return is_word_of(plain_name(column_name),
-                    "seconds secs sec second minutes minute mins min hours hour hrs hr milliseconds");
+  if (hint == NameHint::height && !unit_in_name(column_name, Measure::speed).empty()) return false;
+  std::string plain = plain_name(column_name);
+  const bool is_angle = hint == NameHint::longitude || hint == NameHint::latitude;
+  if (is_angle && plain.find("wgs84") != plain.npos && plain.find("utm") == plain.npos) return true;
+  if (hint == NameHint::scene)
+    for (const std::string_view ending : {"id", "no", "number"})
+      if (plain.ends_with(ending)) plain.resize(plain.size() - ending.size());
+  return any_word(hint_words[static_cast<std::size_t>(hint)].words, [&](std::string_view word) {
+    if (word.starts_with('*')) return plain.find(word.substr(1)) != plain.npos;
+    return word.starts_with('~') ? has_word(column_name, word.substr(1)) : word == plain;
+  });
 }
 
 namespace {
@@ -304,7 +320,7 @@ std::string without_ending(std::string_view name, std::initializer_list<std::str
 
 bool is_whole_seconds(std::string_view column_name) {
   const std::string name = plain_name(column_name);
-  return (name.ends_with("sec") || name.ends_with("secs")) && !is_part_of_time(column_name);
+  return (name.ends_with("sec") || name.ends_with("secs")) && !hints_at(column_name, NameHint::part_of_time);
 }
 
 bool are_parts_of_time(std::string_view seconds, std::string_view nanoseconds) {
@@ -314,53 +330,16 @@ bool are_parts_of_time(std::string_view seconds, std::string_view nanoseconds) {
              without_ending(plain_name(nanoseconds), {"nanosecs", "nanosec", "nanoseconds", "nsecs", "nsec"});
 }
 
-bool looks_like_angle(std::string_view column_name, Quantity angle) {
-  const bool along = angle == Quantity::longitude;
-  const std::string plain = plain_name(column_name);
-  return has_part(plain, along ? "longitud l\xC3\xA4ngengrad laengengrad" : "latitud breitengrad") ||
-         has_word(column_name, along ? "lon lng long" : "lat") ||
-         (has_part(plain, "wgs84") && !has_part(plain, "utm"));
-}
-
 std::string_view void_values_of(std::string_view column_name) {
   std::string plain = plain_name(column_name);
   if (plain.starts_with("is") || plain.starts_with("has")) plain.erase(0, plain[0] == 'i' ? 2 : 3);
   if (plain.ends_with('?')) plain.pop_back();
-  if (has_part(plain, "outlier") || is_word_of(plain, "lost missing invalid bad deleted"))
+  if (plain.find("outlier") != plain.npos || is_word_of(plain, "lost missing invalid bad deleted"))
     return "true 1 yes t y";
   if (is_word_of(plain, "visible valid validity detected found tracked present exists inview"))
     return "false 0 no f n";
   if (is_word_of(plain, "fix gpsfix fixtype gpsfixtype")) return "false 0 no none";
   return {};
-}
-
-bool is_scene(std::string_view column_name) {
-  std::string plain = plain_name(column_name);
-  for (std::string_view ending : {"id", "no", "number"})
-    if (plain.ends_with(ending)) plain.resize(plain.size() - ending.size());
-  return is_word_of(
-      plain,
-      "scene scenario case recording session trial video clip match game experiment replicate run "
-      "simulation arena camera cam cameraid sensor tank cage well plate period half quarter");
-}
-
-bool may_be_id(std::string_view column_name) {
-  return is_word_of(
-      plain_name(column_name),
-      "name label vehicle vessel ship boat car robot player bird fish mouse cell device callsign flight "
-      "subject target who imei serial");
-}
-
-bool is_of_aircraft(std::string_view column_name) {
-  return is_word_of(plain_name(column_name),
-                    "icao icao24 hex modes squawk callsign flight registration altbaro altgeom");
-}
-
-bool is_zone(std::string_view column_name) {
-  return is_word_of(
-      plain_name(column_name),
-      "zone utmzone gridzone map mapid building buildingid floorid levelid centername refframe timesystem tz "
-      "timezone utcoffset tzoffset timezoneoffset");
 }
 
 bool is_nobody(std::string_view column_name, std::string_view id) {

@@ -72,30 +72,26 @@ AxisAndBody axis_and_body(std::string_view column_name);
 /// Returns the unit of this measure at the end of a name such as east_cm or "up [ft]"; empty if there is
 /// none.
 std::string_view unit_in_name(std::string_view column_name, Measure measure);
-/// True for a name that has a word for heights: geoaltitude, z_raw, altGeom, floor.
-bool looks_like_height(std::string_view column_name);
-/// True for a column that may have a part of a time, beside another with its seconds: nanosec, gps_week.
-bool is_part_of_time(std::string_view column_name);
-/// True for seconds, minutes and hours, of which a time may need all.
-bool is_part_of_clock(std::string_view column_name);
+/// What a name may say besides the quantity of its numbers.
+enum class NameHint {
+  height,         ///< a word for heights: geoaltitude, z_raw, altGeom, floor
+  longitude,      ///< a word for longitudes or of the earth: geo_lon, X_WGS84
+  latitude,       ///< likewise
+  part_of_time,   ///< beside another column with its seconds: nanosec, gps_week
+  part_of_clock,  ///< seconds, minutes or hours, of which a time may need all
+  scene,          ///< to which scene, trial, match or part of it a row belongs: scene_id, gameId, period
+  id,             ///< ids, or kinds of bodies: name, vehicle
+  aircraft,       ///< what only tables of aircraft have: icao24, callsign, squawk, alt_baro
+  zone,           ///< in which zone, map or building the coordinates of a row are
+};
+bool hints_at(std::string_view column_name, NameHint hint);
 /// True for a name that ends as whole seconds do: stamp.sec, secs.
 bool is_whole_seconds(std::string_view column_name);
 /// True for whole seconds and their nanoseconds: stamp.sec and stamp.nanosec.
 bool are_parts_of_time(std::string_view seconds, std::string_view nanoseconds);
-/// True for a name that has a word for longitudes or latitudes, as `angle` says: geo_lon, X_WGS84.
-bool looks_like_angle(std::string_view column_name, Quantity angle);
 /// Returns the values with which a column says that its row means nothing, such as "true 1" of `lost`; empty
 /// for other columns.
 std::string_view void_values_of(std::string_view column_name);
-/// True for a column that says to which scene, trial, match or part of it a row belongs: scene_id, gameId,
-/// period.
-bool is_scene(std::string_view column_name);
-/// True for a column that may have ids, or kinds of bodies: name, vehicle.
-bool may_be_id(std::string_view column_name);
-/// True for a column that only tables of aircraft have: icao24, callsign, squawk, alt_baro.
-bool is_of_aircraft(std::string_view column_name);
-/// True for a column that says in which zone, map or building the coordinates of its row are.
-bool is_zone(std::string_view column_name);
 /// True for an id that is nobody in most files: missing, negative, unknown, noise; 0 for MMSI and ICAO 24.
 bool is_nobody(std::string_view column_name, std::string_view id);
 

@@ -1,17 +1,27 @@
 // The steps by which find_columns() understands the columns of a table.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "base/program_error.hpp"
 #include "formats/tables/presets.hpp"
 #include "formats/tables/table_columns.hpp"
 
 namespace kinesphere::program {
 
-// Columns in messages, and as the option --columns takes them: column_words.cpp.
+/// Throws ProgramError that names the table: a question about it, or what is wrong with it.
+template <class... Values>
+[[noreturn]] void refuse(const TableHead& head, fmt::format_string<Values...> text, Values&&... values) {
+  throw ProgramError(fmt::format("{}: {}", head.file, fmt::format(text, std::forward<Values>(values)...)));
+}
+
+// Columns as the option --columns takes them and messages say them: said_columns.cpp.
 
 /// Returns the only column of that name, or the only one if case is ignored.
 std::optional<std::size_t> column_named(const TableHead& head, std::string_view name);
@@ -43,13 +53,8 @@ void understand_lengths(const TableHead& head, const ColumnHints& hints, TableCo
 /// aircraft and ships, which are in knots.
 void ask_for_units_of_craft(const TableHead& head, const TableColumns& columns);
 
-// Columns that may be meant, for messages that ask for --columns: likely_columns.cpp.
+// Columns by their names: usual_columns.cpp.
 
-/// True for what says where and when a body is.
-bool is_position(Quantity quantity);
-/// True for parts of the messages of robots that have axes, but are no places: pose.orientation,
-/// twist.linear.
-bool is_of_no_place(std::string_view body);
 /// Adds columns that may be meant, for messages: vessel_mmsi, OSD.latitude, field.pose.position.x. Of several
 /// that are alike it adds none.
 void add_likely_columns(const TableHead& head, TableColumns& columns);
@@ -57,27 +62,19 @@ void add_likely_columns(const TableHead& head, TableColumns& columns);
 /// x=...,y=... for what is none of them.
 std::string whole_columns_option(const TableHead& head, TableColumns columns);
 
-// Columns that are said, by --columns or by a preset: said_columns.cpp.
-
 /// Returns the columns of entries KEY=COLUMN[:UNIT], those of --columns or of a preset. Throws ProgramError.
 TableColumns said_columns(const TableHead& head, std::string_view list, const Preset* preset);
 /// Returns the columns of a preset. Throws ProgramError for a table without them.
 TableColumns preset_columns(const TableHead& head, const Preset& preset);
-
-// Columns by their usual names: usual_columns.cpp.
 
 /// True for what is read with these hints.
 bool is_used(Quantity quantity, const ColumnHints& hints, ColumnUse use);
 /// Returns the columns with usual names. Throws ProgramError where two may be meant.
 TableColumns usual_columns(const TableHead& head, const ColumnHints& hints, ColumnUse use);
 
-// Tables in which each body has columns of its own: paired_columns.cpp.
-
 /// Finds a pair of columns for each body: x1, y1, x2, y2, as idtracker.ai writes them, or lon1, lat1 and so
 /// on; or three, with z or alt.
 void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& columns);
-
-// The column of times, and the unit of its numbers: time_columns.cpp.
 
 /// Finds the nanoseconds beside whole seconds, as ROS has them, and asks about other parts of the time, such
 /// as minutes, or weeks, as GPS has. Of columns that are given, those of whole seconds without a unit count.

@@ -80,8 +80,8 @@ constexpr Preset presets[] = {
     {"ngsim", "NGSIM", "id=Vehicle_ID,time=Global_Time:ms,x=Local_X:ft,y=Local_Y:ft",
      "Vehicle_ID,Global_Time,Local_X,Local_Y"},
     {"vissim", "Vissim",
-     "id=NO,time=SIMSEC:s,x=COORDFRONTX|COORDCENTX|COORDREARX,y=COORDFRONTY|COORDCENTY|COORDREARY,"
-     "z?=COORDFRONTZ|COORDCENTZ|COORDREARZ",
+     "id=NO,time=SIMSEC:s,x=COORDFRONTX|COORDCENTX|COORDREARX,y=COORDFRONTY|COORDCENTY|COORDREARY,z?="
+     "COORDFRONTZ|COORDCENTZ|COORDREARZ",
      "NO,SIMSEC,COORD*"},
     {"argoverse", "Argoverse", "id=TRACK_ID,time=TIMESTAMP:s,x=X:m,y=Y:m",
      "TIMESTAMP,TRACK_ID,OBJECT_TYPE,X,Y"},

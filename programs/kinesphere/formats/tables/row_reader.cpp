@@ -114,8 +114,7 @@ void RowReader::check_void_columns() const {
     const std::string name = name_in_filter(head_.names[place]);
     throw OpenQuestion(
         fmt::format("'{}' as {} may mean that there is no such position: leave such rows out with --where "
-                    "'{} != {}', or keep "
-                    "them with --where '{} != none'",
+                    "'{} != {}', or keep them with --where '{} != none'",
                     field(place), head_.names[place], name, field(place), name));
   }
 }
@@ -128,10 +127,10 @@ void RowReader::check_likelihood() const {
                               : std::nullopt;
   if (!likelihood || *likelihood >= likely) return;
   const std::string name = name_in_filter(head_.names[*likelihood_]);
-  throw OpenQuestion(fmt::format(
-      "the likelihood {0} says that the position may be anywhere: leave such rows out with --where "
-      "'{1} >= 0.6', or keep them with --where '{1} != none'",
-      *likelihood, name));
+  throw OpenQuestion(
+      fmt::format("the likelihood {0} says that the position may be anywhere: leave such rows out with "
+                  "--where '{1} >= 0.6', or keep them with --where '{1} != none'",
+                  *likelihood, name));
 }
 
 std::string RowReader::wrong_text(std::size_t column, std::string_view expected) const {
@@ -142,14 +141,8 @@ std::string RowReader::wrong_text(std::size_t column, std::string_view expected)
 }
 
 std::string_view RowReader::name_of(Quantity quantity) const {
-  switch (quantity) {
-    case Quantity::longitude:
-      return "longitude";
-    case Quantity::latitude:
-      return "latitude";
-    default:
-      return key_of(quantity);
-  }
+  if (quantity == Quantity::longitude) return "longitude";
+  return quantity == Quantity::latitude ? "latitude" : key_of(quantity);
 }
 
 void RowReader::set_body(std::size_t body) {
@@ -172,18 +165,18 @@ std::string_view RowReader::id() {
   const std::string_view id = whole ? std::string_view(id_) : text;
   if (whole && is_rounded(text) && !filter_.mentions(column))
     throw OpenQuestion(
-        fmt::format("the id {} looks rounded, as spreadsheets do with long numbers: write ids in full, "
-                    "or keep it with --where '{} != none'",
+        fmt::format("the id {} looks rounded, as spreadsheets do with long numbers: write ids in full, or "
+                    "keep it with --where '{} != none'",
                     text, where_name(Quantity::id)));
   if (text.empty())
     throw WrongInput(fmt::format("{} (--where '{} != \"\"' leaves such rows out)",
                                  wrong_text(column, "an id"), where_name(Quantity::id)));
   if (is_nobody(head_.names.empty() ? "" : head_.names[column], id) && !filter_.mentions(column)) {
     const std::string name = where_name(Quantity::id);
-    throw OpenQuestion(fmt::format(
-        "the id {0} is that of nobody in most files: leave its rows out with --where '{1} != {2}', or keep "
-        "them with --where '{1} != \"\"'",
-        id, name, name_in_filter(std::string(id))));
+    throw OpenQuestion(
+        fmt::format("the id {0} is that of nobody in most files: leave its rows out with --where '{1} != "
+                    "{2}', or keep them with --where '{1} != \"\"'",
+                    id, name, name_in_filter(std::string(id))));
   }
   return id;
 }
@@ -209,10 +202,10 @@ void RowReader::check_place(double x, double y, std::optional<double> z) {
                        std::min(spans_[0].least, spans_[1].least) >= least_of_others;
   const bool is_none = columns_.geographic ? x == 0.0 : is_marker(x) || is_lost;
   if (x == y && is_none && !filter_.mentions(columns_[along]->place))
-    throw OpenQuestion(fmt::format(
-        "{0} as {1} and {2} is no position in most files: leave such rows out with --where '{3} != "
-        "{0} or {4} != {0}', or keep them with --where '{3} != none'",
-        x, name_of(along), name_of(across), where_name(along), where_name(across)));
+    throw OpenQuestion(
+        fmt::format("{0} as {1} and {2} is no position in most files: leave such rows out with --where '{3} "
+                    "!= {0} or {4} != {0}', or keep them with --where '{3} != none'",
+                    x, name_of(along), name_of(across), where_name(along), where_name(across)));
   if (!columns_.geographic && !(x == y && is_none)) {
     check_coordinate(along, x, spans_[0]);
     check_coordinate(across, y, spans_[1]);
@@ -231,8 +224,8 @@ void RowReader::check_coordinate(Quantity quantity, double value, Span& span, bo
   if ((is_none || std::abs(value) >= largest || (may_be_none && is_far)) &&
       !filter_.mentions(columns_[quantity]->place))
     throw OpenQuestion(
-        fmt::format("{0} as {1} is no position in most files: leave such rows out with --where '{2} != "
-                    "{0}', or keep them with --where '{2} != none'",
+        fmt::format("{0} as {1} is no position in most files: leave such rows out with --where '{2} != {0}', "
+                    "or keep them with --where '{2} != none'",
                     value, name_of(quantity), where_name(quantity)));
   if (is_marker(value)) return;
   ++span.count;
@@ -274,10 +267,9 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
         (columns_.times_are_clocks ? ": write 9:30 as 09:30:00, or as 00:09:30"
          : is_clock(text) ? ", which has no date: write it as in 2024-01-31T12:30:00Z, or the date in a "
                             "column called date, or say --time-unit clock to count from midnight"
-         : ends_in_zone(text, columns_.dates)
-             ? ": of names of zones UTC and GMT are read, as others may be of several zones: write "
-               "offsets, such as +01:00 for CET"
-             : " (dates are read as in 2024-01-31T12:30:00Z)"));
+         : ends_in_zone(text, columns_.dates) ? ": of names of zones UTC and GMT are read, as others may be "
+                                                "of several zones: write offsets, such as +01:00 for CET"
+                                              : " (dates are read as in 2024-01-31T12:30:00Z)"));
   }
   if (time->kind != TimeKind::number) return time;
   if (columns_.decimal_comma) check_decimals(column->place);
@@ -323,8 +315,8 @@ void RowReader::check_date(std::string_view text, const FileTime& time) const {
   if (!columns_[Quantity::date] || columns_.time_kind != TimeKind::number || time.whole > largest_clock)
     return;
   throw OpenQuestion(fmt::format(
-      "the time {} and the date {} may belong together: write both as one column, as in "
-      "2024-01-31T12:30:00, or say {} to take the time alone",
+      "the time {} and the date {} may belong together: write both as one column, as in 2024-01-31T12:30:00, "
+      "or say {} to take the time alone",
       shown_field(text), shown_field(field(columns_[Quantity::date]->place)), columns_.time_advice));
 }
 
@@ -334,8 +326,8 @@ void RowReader::check_size(const FileTime& time) {
   if (std::abs(time.whole) <= last_likely_second) return;
   if (const std::string_view parts = parts_of_packed_date(time.whole); !parts.empty())
     throw OpenQuestion(
-        fmt::format("{}, which may be a date without separators: these are read as "
-                    "20240131T123015, which sed -E 's/\\b{}/' writes",
+        fmt::format("{}, which may be a date without separators: these are read as 20240131T123015, which "
+                    "sed -E 's/\\b{}/' writes",
                     wrong_text(columns_[Quantity::time]->place, "a time"), parts));
   constexpr std::int64_t year_1990 = 631'152'000'000, year_2100 = 4'102'444'800'000;
   if (!columns_.geographic || has_time_ || time.whole < year_1990 || time.whole > year_2100)
@@ -436,8 +428,7 @@ std::optional<Vec3> RowReader::position() {
     const char* const unit_advice =
         std::abs(*x) >= least_whole || std::abs(*y) >= least_whole
             ? ": say --columns ...,lon=...:degE7,lat=...:degE7 if it is in 1e-7 degrees, or :semicircles if "
-              "it "
-              "is of FIT"
+              "it is of FIT"
         : std::abs(*x) <= 18e3 && std::abs(*y) <= 9e3
             ? ": degrees and minutes are read with a blank between them, 47 30.25 for 4730.25"
             : "";

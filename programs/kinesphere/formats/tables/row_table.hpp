@@ -26,8 +26,7 @@ class RowTable {
     for (const std::string_view name : columns) column_of(name);
   }
 
-  std::string format;                 ///< for the summary
-  std::vector<std::string> comments;  ///< that stand above a table: "framerate: 25 fps"
+  std::string format;  ///< for the summary
   std::vector<std::string> warnings;
   bool is_one_body = false;  ///< all rows are of one body, called like the file
   TableColumns::Place place_on_body = TableColumns::Place::middle;  ///< where on a body its position is
@@ -62,6 +61,12 @@ class RowTable {
     std::size_t column = 0;
     (set(column++, values), ...);
   }
+  /// Returns the name for its first track, and "name (2)" and so on for the next: two walks of a day may be
+  /// called alike, at the same times or not.
+  std::string label(const std::string& name) {
+    const std::size_t count = ++labels_[name];
+    return count == 1 ? name : fmt::format("{} ({})", name, count);
+  }
   /// Leaves the column of heights, which has to be the last one, out unless all rows have one; if some have,
   /// a warning says so.
   void use_heights_of_all(const std::string& file);
@@ -78,6 +83,7 @@ class RowTable {
 
   std::vector<std::string> names_;
   std::unordered_map<std::string, std::size_t> columns_;
+  std::unordered_map<std::string, std::size_t> labels_;  ///< how many tracks have asked for each name
   std::vector<Row> rows_;
   std::vector<Field> fields_;
   std::string text_;

@@ -1,16 +1,68 @@
-// Columns that are said: by --columns, or by a preset.
+// Columns as the option --columns takes them, and messages say them; those of presets are said likewise.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
+#include "base/ascii_text.hpp"
+#include "base/number_text.hpp"
 #include "base/program_error.hpp"
 #include "formats/fields/line_text.hpp"
 #include "formats/fields/units.hpp"
 #include "formats/tables/column_steps.hpp"
 
 namespace kinesphere::program {
+
+std::optional<std::size_t> column_named(const TableHead& head, std::string_view name) {
+  const auto& names = head.names;
+  for (const bool exact : {true, false}) {
+    const auto matches = [&](const std::string& each) {
+      return exact ? each == name : same_name(each, name);
+    };
+    const auto found = std::find_if(names.begin(), names.end(), matches);
+    if (found == names.end()) continue;
+    if (std::count_if(names.begin(), names.end(), matches) > 1)
+      refuse(head, "expected one column '{}', but it has {}", name, head.text());
+    return static_cast<std::size_t>(found - names.begin());
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> place_of(const TableHead& head, std::string_view name) {
+  if (const auto place = column_named(head, name)) return place;
+  const double number = parse_number(name).value_or(0.0);
+  for (std::size_t place = 0; place < head.columns(); ++place)
+    if (number == static_cast<double>(place + 1)) return place;
+  return std::nullopt;
+}
+
+std::string column_text(const TableHead& head, std::size_t place) {
+  return head.names.empty() ? fmt::format("column {}", place + 1)
+                            : fmt::format("column '{}'", head.names[place]);
+}
+
+std::string column_word(const TableHead& head, std::size_t place) {
+  const bool by_name = !head.names.empty() && head.names[place].find_first_of(",\"'") == std::string::npos &&
+                       std::count(head.names.begin(), head.names.end(), head.names[place]) == 1;
+  return by_name ? head.names[place] : fmt::format("{}", place + 1);
+}
+
+std::string columns_text(const TableHead& head, const TableColumns& columns, std::optional<Quantity> quantity,
+                         std::string_view unit, std::optional<Quantity> without) {
+  std::string text = columns.id_is_file ? "id=@file" : "";
+  for (std::size_t k = 0; k < quantity_count; ++k) {
+    const auto each = static_cast<Quantity>(k);
+    if (!columns.of[k] || each == without) continue;
+    const std::string said = columns.of[k]->said_unit.empty() ? "" : ":" + columns.of[k]->said_unit;
+    text += fmt::format("{}{}={}{}", text.empty() ? "" : ",", key_of(each),
+                        column_word(head, columns.of[k]->place), each == quantity ? unit : said);
+  }
+  return text;
+}
+
+std::string columns_option(std::string_view list) { return "--columns " + shell_word(list); }
+
 namespace {
 
 /// Reads the entries KEY=COLUMN[:UNIT] of a list.
@@ -82,11 +134,10 @@ class SaidColumns {
 
   [[noreturn]] void fail(std::string_view key, std::string_view name) const {
     if (preset_ != nullptr)
-      throw ProgramError(fmt::format("{}: expected {} with --format {}, but it has {}", head_.file,
-                                     preset_->header.empty()
-                                         ? fmt::format("{} columns or more", preset_->rules.least_columns)
-                                         : fmt::format("the columns {}", preset_->header),
-                                     preset_->name, head_.text()));
+      refuse(head_, "expected {} with --format {}, but it has {}",
+             preset_->header.empty() ? fmt::format("{} columns or more", preset_->rules.least_columns)
+                                     : fmt::format("the columns {}", preset_->header),
+             preset_->name, head_.text());
     throw ProgramError(fmt::format(
         "--columns: expected '{}' to be a column's name or number from 1 to {}, but got '{}': {} has {}", key,
         head_.columns(), name, head_.file, head_.text()));
@@ -106,8 +157,8 @@ TableColumns said_columns(const TableHead& head, std::string_view list, const Pr
 
 TableColumns preset_columns(const TableHead& head, const Preset& preset) {
   if (head.columns() < preset.rules.least_columns)
-    throw ProgramError(fmt::format("{}: expected {} columns or more with --format {}, but it has {}",
-                                   head.file, preset.rules.least_columns, preset.name, head.text()));
+    refuse(head, "expected {} columns or more with --format {}, but it has {}", preset.rules.least_columns,
+           preset.name, head.text());
   TableColumns columns = said_columns(head, preset.columns, &preset);
   columns.format = preset.title;
   columns.has_own_heights = preset.rules.has_own_heights;

@@ -27,15 +27,14 @@ void keep_used(const ColumnHints& hints, ColumnUse use, TableColumns& columns) {
 
 void require_sizes(const TableHead& head, const TableColumns& columns) {
   if (!columns[Quantity::length] || !columns[Quantity::width])
-    throw ProgramError(
-        fmt::format("{}: expected columns of length and width for --sizes, by their names or --columns "
-                    "length=...,width=...; it has {}",
-                    head.file, head.text()));
+    refuse(head,
+           "expected columns of length and width for --sizes, by their names or --columns "
+           "length=...,width=...; it has {}",
+           head.text());
   if (columns.is_ais)
-    throw ProgramError(
-        fmt::format("{}: expected positions of the middle for --sizes, but those of AIS are of the "
-                    "antenna, anywhere on the ship",
-                    head.file));
+    refuse(head,
+           "expected positions of the middle for --sizes, but those of AIS are of the antenna, anywhere on "
+           "the ship");
 }
 
 /// Finds the columns of a quaternion, where no other says which way bodies point.
@@ -79,18 +78,18 @@ void ask_for_heights(const TableHead& head, const TableColumns& columns) {
     const std::string& name = head.names[place];
     const bool is_known = std::any_of(columns.of.begin(), columns.of.end(),
                                       [&](const auto& column) { return column && column->place == place; });
-    if (is_known || is_height_of_box(head, name) || !looks_like_height(name)) continue;
+    if (is_known || is_height_of_box(head, name) || !hints_at(name, NameHint::height)) continue;
     if (heights.empty()) first = place;
     heights.push_back(fmt::format("'{}'", name));
   }
   if (heights.empty()) return;
   const std::string others = columns_text(head, columns);
-  throw ProgramError(fmt::format(
-      "{}: {} may be {}: say {} to use {}, or {} to leave heights out", head.file,
+  refuse(
+      head, "{} may be {}: say {} to use {}, or {} to leave heights out",
       heights.size() == 1 ? "column " + heights.front() : fmt::format("columns {}", fmt::join(heights, ", ")),
       heights.size() == 1 ? "a height" : "heights",
       columns_option(fmt::format("{},z={}", others, column_word(head, first))),
-      heights.size() == 1 ? "it" : "one", columns_option(others)));
+      heights.size() == 1 ? "it" : "one", columns_option(others));
 }
 
 /// True for rows of person and frame: frame id x z(=0) y vx vz(=0) vy, without a header. Numbers that are no
@@ -144,7 +143,7 @@ void understand_places(const TableHead& head, const ColumnHints& hints, TableCol
   const auto is_angle = [&](const std::optional<Column>& column, Quantity angle) {
     if (!column || head.names.empty()) return false;
     const std::string& name = head.names[column->place];
-    if (looks_like_angle(name, angle)) return true;
+    if (hints_at(name, angle == Quantity::longitude ? NameHint::longitude : NameHint::latitude)) return true;
     const auto meaning = meaning_of(name);
     return meaning && (meaning->quantity == angle || unit_named(meaning->unit, Measure::angle).has_value());
   };
@@ -158,10 +157,9 @@ void understand_places(const TableHead& head, const ColumnHints& hints, TableCol
         column_word(head, x->place)));
   const bool one_alone = is_angle(x, Quantity::longitude) != is_angle(y, Quantity::latitude);
   if (x && y && one_alone && !swapped && !said && hints.positions != "plane")
-    throw ProgramError(
-        fmt::format("{}: {} are degrees, but {} are not said to be: say --positions lonlat or plane",
-                    head.file, column_text(head, is_angle(x, Quantity::longitude) ? x->place : y->place),
-                    column_text(head, is_angle(x, Quantity::longitude) ? y->place : x->place)));
+    refuse(head, "{} are degrees, but {} are not said to be: say --positions lonlat or plane",
+           column_text(head, is_angle(x, Quantity::longitude) ? x->place : y->place),
+           column_text(head, is_angle(x, Quantity::longitude) ? y->place : x->place));
   if (x && y && !lon && !lat && hints.positions != "plane" && (said || by_name)) {
     lon = std::exchange(x, std::nullopt);
     lat = std::exchange(y, std::nullopt);
@@ -218,8 +216,8 @@ std::string missing_columns_text(const TableHead& head, const TableColumns& colu
   const std::string_view above = "lines above the header have to be left out or begin with #";
   if (head.names.empty())
     return fmt::format(
-        "{}: say --columns id=...,time=...,x=...,y=... with the numbers of its columns, whose "
-        "first row is {} ({})",
+        "{}: say --columns id=...,time=...,x=...,y=... with the numbers of its columns, whose first row is "
+        "{} ({})",
         text, shown_field(fmt::format("{}", fmt::join(head.first, " "))), above);
   constexpr std::size_t fewest = 4;
   TableColumns likely = columns;
@@ -242,17 +240,14 @@ void require_columns(const TableHead& head, const ColumnHints& hints, const Tabl
     if (!hints.columns.empty())
       throw ProgramError(
           fmt::format("--columns: expected id=... (or id=@file), time=... (or frame=...), x=...,y=... (or "
-                      "lon=...,lat=...) and "
-                      "perhaps z=..., but got '{}'",
+                      "lon=...,lat=...) and perhaps z=..., but got '{}'",
                       hints.columns));
     throw ProgramError(missing_columns_text(head, columns));
   }
   if (has(Quantity::vx) != has(Quantity::vy) ||
       (has(Quantity::course) && !has(Quantity::speed) && !hints.sizes) ||
       (has(Quantity::vx) && has(Quantity::speed)))
-    throw ProgramError(
-        fmt::format("{}: expected either vx and vy or speed and course, or neither: say which with --columns",
-                    head.file));
+    refuse(head, "expected either vx and vy or speed and course, or neither: say which with --columns");
 }
 
 /// Finds columns of N, S, E and W, each behind that of its degrees.

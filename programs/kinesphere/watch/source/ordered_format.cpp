@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "watch/source/kept_report.hpp"
@@ -18,7 +17,11 @@ constexpr std::size_t most_of_first = 50'000, most_of_all = 500'000;
 class KeepingFormat final : public OrderedFormat, private ReportSink {
  public:
   KeepingFormat(std::unique_ptr<ReportFormat> format, std::string source)
-      : format_(std::move(format)), begin_(format_->save()), source_(std::move(source)) {}
+      : format_(std::move(format)), source_(std::move(source)) {
+    ByteWriter state;
+    format_->save(state);
+    begin_ = state.take();
+  }
 
   void read(const Record& record, ReportSink& sink) override {
     if (phase_ == Phase::passes) return format_->read(record, sink);
@@ -32,8 +35,11 @@ class KeepingFormat final : public OrderedFormat, private ReportSink {
   }
   const RowReader* rows() const override { return format_->rows(); }
   std::string_view title() const override { return format_->title(); }
-  nlohmann::json save() const override { return keeps_all() ? begin_ : format_->save(); }
-  void restore(const nlohmann::json& state) override { format_->restore(state); }
+  void save(ByteWriter& state) const override {
+    if (keeps_all()) return state.append(begin_);
+    format_->save(state);
+  }
+  void restore(ByteReader& state) override { format_->restore(state); }
   bool keeps_all() const override { return phase_ != Phase::passes; }
 
  private:
@@ -88,7 +94,7 @@ class KeepingFormat final : public OrderedFormat, private ReportSink {
   }
 
   std::unique_ptr<ReportFormat> format_;
-  nlohmann::json begin_;  ///< state of the format before its first record
+  std::vector<std::byte> begin_;  ///< state of the format before its first record
   std::string source_;
   Phase phase_ = Phase::first_track;
   std::deque<KeptReport> kept_;

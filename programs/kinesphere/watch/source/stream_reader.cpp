@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <utility>
 
@@ -80,12 +79,9 @@ void StreamReader::begin(StreamFormat format, const Wrap& wrap, const ReaderStat
   cutter_.set_kind(records_of(format));
   // The begin of another stream differs from the saved one.
   if (from != nullptr && from->place.stream == source_->name()) {
-    try {
-      const auto* const memory = reinterpret_cast<const std::uint8_t*>(from->memory.data());
-      reader_->restore(nlohmann::json::from_cbor(memory, memory + from->memory.size()));
-    } catch (const nlohmann::json::exception&) {
-      throw WrongInput("expected the state of a format");
-    }
+    ByteReader memory(from->memory);
+    reader_->restore(memory);
+    if (memory.failed() || memory.remaining() != 0) throw WrongInput("expected the state of a format");
     cutter_.begin_at(from->line);
   }
   if (!is_new || !is_file() || !may_be_grouped(format) || options_.clock == "arrival") return;
@@ -137,12 +133,12 @@ std::string_view StreamReader::format_name() const {
 ReaderState StreamReader::state() const {
   // A later run reads again what is kept back.
   const bool is_at_begin = ordered_ != nullptr && ordered_->keeps_all();
-  const auto memory = nlohmann::json::to_cbor(reader_->save());
-  const auto bytes = std::as_bytes(std::span(memory));
+  ByteWriter memory;
+  reader_->save(memory);
   return {.format = std::string(name_of(*format_)),
           .place = source_->place(is_at_begin ? source_->position(0) : cutter_.waiting().size()),
           .line = is_at_begin ? RecordCutter::Line{} : cutter_.line(),
-          .memory = {bytes.begin(), bytes.end()}};
+          .memory = memory.take()};
 }
 
 }  // namespace kinesphere::program

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/ascii_text.hpp"
@@ -87,8 +86,8 @@ class RuledFormat final : public ReportFormat, private ReportSink {
   }
   const RowReader* rows() const override { return format_->rows(); }
   std::string_view title() const override { return format_->title(); }
-  nlohmann::json save() const override { return format_->save(); }
-  void restore(const nlohmann::json& state) override { format_->restore(state); }
+  void save(ByteWriter& state) const override { format_->save(state); }
+  void restore(ByteReader& state) override { format_->restore(state); }
 
  private:
   void take(const SourceReport& report) override {

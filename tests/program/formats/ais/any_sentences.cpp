@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "formats/nmea/ais_message.hpp"
 #include "formats/streams/report_format.hpp"
@@ -45,11 +44,15 @@ std::optional<std::string> AnySentences::complaint(std::string_view text) {
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     if (auto defect = complaint_of_line(line)) return defect;
   }
-  const auto state = assembler_.save();
+  ByteWriter state, again;
+  state(assembler_);
   SentenceAssembler restored;
-  restored.restore(nlohmann::json::from_cbor(nlohmann::json::to_cbor(state)));
-  if (restored.save() != state) return "another state after it was restored";
-  if (state.at(1).size() > SentenceAssembler::most_waiting) return "more messages wait than may";
+  ByteReader reader(state.bytes());
+  reader(restored);
+  again(restored);
+  if (reader.failed() || !std::ranges::equal(again.bytes(), state.bytes()))
+    return "another state after it was restored";
+  if (assembler_.waiting() > SentenceAssembler::most_waiting) return "more messages wait than may";
   return std::nullopt;
 }
 
