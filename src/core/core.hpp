@@ -20,8 +20,8 @@
 // leave its safe region gets another one, which breaks N, too: one search mends it.
 //
 // A ball of the core is a body with the space around it in which others matter to it: the ball around its
-// shape, and as far as it senses. Where two of these may overlap, or one reaches a wall, the host says what
-// that means: nothing until a certain time, or a contact.
+// shape, so large that those of two that sense each other overlap. Where two of these may overlap, or one
+// reaches a wall, the host says what that means: nothing until a certain time, or a contact.
 //
 // Sources: safe regions are those of continuous queries (Prabhakar et al., IEEE Trans. Computers 51, 2002),
 // neighbour lists those of Verlet (Phys. Rev. 159, 1967), and one due time for each body that of Lubachevsky
@@ -65,7 +65,7 @@ class Core {
   std::size_t due_bytes() const { return lists_.bytes() + queue_.bytes(); }
 
   bool contains(std::uint32_t number) const { return number < balls_.size() && balls_[number].is_present(); }
-  /// Enters a ball with this bound, the radius of which includes the distance at which it senses others. A
+  /// Enters a ball with this bound, the radius of which includes the space in which it senses others. A
   /// passive one never moves. It has to be told as changed before anything else.
   void enter(std::uint32_t number, const Bound& bound, bool is_passive, bool meets_walls);
   /// Lets find() find a ball that has entered from now on, before it is told as changed.
