@@ -71,9 +71,8 @@ std::string summary_of(const SceneParameters& parameters, const Scene& scene, co
               fmt::format("{} body-seconds", number(result.body_time)));
   if (totals.resumed_at) summary.row("resumed at", fmt::format("{} s", number(*totals.resumed_at)));
   summary.space();
-  add_events(
-      summary, result,
-      {.ends = scene.response == SceneResponse::pass_through, .internals = scene.resting_speed > 0.0});
+  add_events(summary, result,
+             {.ends = scene.response == SceneResponse::pass_through, .internals = scene.resting_speed > 0.0});
   summary.space();
   const std::uint64_t probes = result.counters.probes;
   summary.row("probes", grouped(probes),

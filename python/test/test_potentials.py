@@ -70,7 +70,8 @@ def test_pairs_in_each_state_have_a_response_of_their_own() -> None:
     ids = world.add_motion(motion, 0.5)
     bond = chained(world, ids)
     game = ks.GameWorld(dimensions=2, box=box, contacts="impacts")
-    game.respond = {0: ks.Bouncing(), np.int64(bonded): chained(game, game.add(places, speeds, 0.5))}
+    bond_of_game = chained(game, game.add(places, speeds, 0.5))
+    game.respond = {0: ks.Bouncing(), np.int64(bonded): bond_of_game}  # type: ignore[dict-item]
     for time in range(1, 31):
         events = world.run(float(time), motion, {bonded: bond, 0: ks.Bouncing()})
         assert [event.time for event in game.step(time - game.time)] == [event.time for event in events]
@@ -87,7 +88,7 @@ def test_pairs_in_each_state_have_a_response_of_their_own() -> None:
         ({0: None}, "values must be a Bouncing, a Roughness or a StepPotential, but one is None"),
     ]:
         with pytest.raises(TypeError, match=f"^run: respond: {message}"):
-            world.run(31.0, motion, wrong)  # type: ignore[arg-type]
+            world.run(31.0, motion, wrong)  # type: ignore[call-overload]
         with pytest.raises(TypeError, match=f"^GameWorld: respond: {message}"):
             game.respond = wrong  # type: ignore[assignment]
     assert world.run(31.0, motion, {}).of_kind(ks.EventKind.contact_begin) is not None
