@@ -19,6 +19,13 @@ export class Event extends EventFields {
   }
 }
 
+let room: number | null = null;
+const hashSize = 16;
+/** @internal Returns the address of memory that stays, for one event and a ks_event_hash behind it. */
+export function eventRoom(module: Module): number {
+  return room ??= module.call("malloc", eventAt.size + hashSize);
+}
+
 /** Returns a copy of the event at an address of the module. */
 export function eventFrom(module: Module, address: number): Event {
   const { numbers, words } = module.copy(address, eventAt.size);
@@ -52,7 +59,7 @@ export class Events implements Iterable<Event> {
  */
 export class EventHash {
   /** A ks_event_hash. */
-  private parts: Float64Array = new Float64Array(2);
+  private readonly parts = new Int32Array(hashSize / 4);
 
   /** Adds one event or several. */
   add(events: Event | Events): this {
@@ -61,17 +68,19 @@ export class EventHash {
     const module = theModule();
     const { numbers, from } = events instanceof Event ? events : events.records;
     const [first, count] = events instanceof Event ? [from >> 3, 1] : [0, events.length];
-    module.with(() => {
-      const parts = module.numbers(this.parts), at = module.numbers(numbers.subarray(first, first + count * (eventAt.size / 8)));
-      const add = module.exports["ks_event_hash_add"]!;
-      for (let k = 0; k < count; ++k) add(parts, at + k * eventAt.size);
-      this.parts = module.numbersAt(parts, 2);
-    });
+    const at = eventRoom(module), parts = at + eventAt.size, size = eventAt.size / 8;
+    const add = module.exports["ks_event_hash_add"]!;
+    module.i32.set(this.parts, parts >> 2);
+    for (let k = first; k < first + count * size; k += size) {
+      module.f64.set(numbers.subarray(k, k + size), at >> 3);
+      add(parts, at);
+    }
+    for (let k = 0; k < this.parts.length; ++k) this.parts[k] = module.i32[(parts >> 2) + k]!;
     return this;
   }
   /** 16 hexadecimal digits. */
   get value(): string {
-    return hexOf(theModule().handle("ks_event_hash_value", this.parts));
+    return hexOf(theModule().handle("ks_event_hash_value", (module) => module.words(this.parts)));
   }
   get count(): number {
     return Number(new BigUint64Array(this.parts.buffer)[1]);
@@ -79,7 +88,7 @@ export class EventHash {
   /** Returns a copy. */
   clone(): EventHash {
     const copy = new EventHash();
-    copy.parts = this.parts.slice();
+    copy.parts.set(this.parts);
     return copy;
   }
 }

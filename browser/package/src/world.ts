@@ -11,7 +11,7 @@ import {
 } from "./body.js";
 import { BodyMap } from "./body_map.js";
 import { type Box, boxKeys, type Definition, definitionOf, definitionRecord, type WorldDefinition } from "./definition.js";
-import { type Event, eventFrom, Events } from "./event.js";
+import { type Event, eventFrom, eventRoom, Events } from "./event.js";
 import { type Filter, filterArguments, filterFrom, keptFilter, maskNumber, type PairFilter, putFilter } from "./filter.js";
 import { Place } from "./memory.js";
 import { type Argument, Id, Ids, type Kept, Owned, theModule, type Value } from "./module.js";
@@ -793,16 +793,15 @@ export class World extends WorldView {
   protected next(until: number, ...probe: Argument[]): Event | null {
     const module = theModule();
     const name = "ks_world_advance";
-    return module.with(() => {
-      const at = module.room(eventAt.size);
-      module.putWord(at, eventAt.size);
-      const status = module.status(name, this.address, until, ...probe, at);
-      const event = status === 0 && module.i32[(at + eventAt.kind) >> 2] !== 0 ? eventFrom(module, at) : null;
-      if (module.hasThrown) this.#kept = event;
-      module.rethrow();
-      if (status !== 0) throw module.error(status, name);
-      return event;
-    });
+    // It is written as the last thing, so that a call inside of a probe may have used the same memory.
+    const at = eventRoom(module);
+    module.putWord(at, eventAt.size);
+    const status = module.status(name, this.address, until, ...probe, at);
+    const event = status === 0 && module.i32[(at + eventAt.kind) >> 2] !== 0 ? eventFrom(module, at) : null;
+    if (module.hasThrown) this.#kept = event;
+    module.rethrow();
+    if (status !== 0) throw module.error(status, name);
+    return event;
   }
 
   /** Advances to the next event and returns it, or to `until`, and returns null. */
