@@ -156,8 +156,11 @@ class RandomMeetings : public testing::TestWithParam<ContactScene> {
     switch (random.bits() % 4) {
       case 0:
         return Triangle{1.2 * random.unit_vector(), 1.2 * random.unit_vector(), 1.2 * random.unit_vector()};
-      case 1:
-        return folded(0.2 * random.point_in_ball(), 0.3 + 0.5 * random.uniform());
+      case 1: {
+        // In an order that no compiler chooses.
+        const double size = 0.3 + 0.5 * random.uniform();
+        return folded(0.2 * random.point_in_ball(), size);
+      }
       default: {
         const Vec3 lower = 0.7 * random.point_in_ball() - Vec3{0.4, 0.4, 0.4};
         return Box{lower, lower + Vec3{random.uniform(), random.uniform(),
