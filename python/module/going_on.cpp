@@ -323,12 +323,12 @@ it is left early, the world stands at the last event. Each step is an advance().
 
 motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any
 probe.
-respond: what gives bodies new velocities at an event: a Bouncing, a Roughness, a StepPotential; a dict of these for the
-states of pairs, as {0: well, 1: bond} (set_pair_state()); a Scene; or a function of the Event that returns None or (first velocity or None, second velocity or None); for a rigid body a tuple (velocity or None,
-angular velocity or None), as bounce_rigid() makes it, may take the place of its velocity; for any body so may
-'remove', 'disable' or 'sleep', which do to it what the methods of the world do. (first, second, 'stop') stops the
-world at this event. It must depend on the event alone, and may not call the world. Removed bodies leave a BodyMap
-and its motions, too.
+respond: what gives bodies new velocities at an event: a Bouncing, a Roughness, a StepPotential; a dict of these for
+the states of pairs, as {0: well, 1: bond} (set_pair_state()); a Scene; or a function of the Event that returns None
+or (first velocity or None, second velocity or None); for a rigid body a tuple (velocity or None, angular velocity or
+None), as bounce_rigid() makes it, may take the place of its velocity; for any body so may 'remove', 'disable' or
+'sleep', which do to it what the methods of the world do. (first, second, 'stop') stops the world at this event. It
+must depend on the event alone, and may not call the world. Removed bodies leave a BodyMap and its motions, too.
 sink: a function that is told each Event, in order; then no Events are returned.
 events: "all", "none", or names of columns of Event, such as ("time", "first", "second"): then a structured array of
 these alone is returned, 24 bytes an event in place of 384. The Events of an interrupted run come first in what the next
