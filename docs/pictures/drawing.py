@@ -52,6 +52,11 @@ class Drawing:
     def circle(self, x, y, r, class_, **more):
         self.add("circle", cx=float(x), cy=float(y), r=float(r), class_=class_, **more)
 
+    def dots(self, places, radius, ink, **more):
+        """Discs of one size, in a tenth of the bytes that circles take."""
+        path = "".join(f"M{number(x)} {number(y)}h0" for x, y in places)
+        self.add("path", d=path, class_=f"{ink}-line", style=f"stroke-width:{number(2 * radius)}", **more)
+
     def line(self, x1, y1, x2, y2, class_, **more):
         self.add("line", x1=float(x1), y1=float(y1), x2=float(x2), y2=float(y2), class_=class_, **more)
 

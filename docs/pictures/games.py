@@ -8,7 +8,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from drawing import Drawing, Sheet, number
+from drawing import Drawing, Sheet
 from lessons import BEGINS, HEIGHT, WIDTH
 
 import kinesphere as ks
@@ -138,12 +138,6 @@ def pieces_of(way, plane):
     return [thinned(piece, 2.5 / plane.scale) for piece in pieces if len(piece) > 1]
 
 
-def dots(drawing, places, radius, ink):
-    """Discs, in a tenth of the bytes that circles take."""
-    path = "".join(f"M{number(x)} {number(y)}h0" for x, y in places)
-    drawing.add("path", d=path, class_=f"{ink}-line", style=f"stroke-width:{number(2 * radius)}")
-
-
 def draw_shape(drawing, plane, shape, ink, place=(0.0, 0.0)):
     moved = lambda point: (point[0] + place[0], point[1] + place[1])
     if isinstance(shape, ks.Ball):
@@ -181,7 +175,7 @@ def draw(name, recording):
         plane.at(event.point) for event in events if event.kind in BEGINS and plane.shows(event.point)
     ]
     # Of contacts at one place, one is drawn.
-    dots(drawing, {(round(x / 3), round(y / 3)): (x, y) for x, y in contacts}.values(), 2.5, "contact")
+    drawing.dots({(round(x / 3), round(y / 3)): (x, y) for x, y in contacts}.values(), 2.5, "contact")
     balls = {}
     for body, one in bodies:
         place = world.bounds([body])[0][0]
@@ -192,7 +186,7 @@ def draw(name, recording):
         else:
             draw_shape(drawing, plane, shape, "body", place)
     for radius, places in balls.items():
-        dots(drawing, places, radius, "body")
+        drawing.dots(places, radius, "body")
     return drawing
 
 

@@ -3,12 +3,13 @@
 import math
 
 import numpy as np
-from drawing import Drawing, number
+from drawing import Drawing
 from lessons import HEIGHT, WIDTH
 
 import kinesphere as ks
 
 SIDE = 270.0
+RADIUS = 0.5
 TOP = 66.0
 
 
@@ -23,19 +24,13 @@ def frame(title, about, captions):
     return drawing, lefts
 
 
-def discs(drawing, left, centres, radii, side, inks):
-    """Discs of a square panel that repeats, as dots of lines that have no length: inks[k] is the class of a disc."""
+def discs(drawing, left, centres, side, inks):
+    """Discs of diameter 1 in a square panel that repeats; inks[k] is the class of a disc."""
     scale = SIDE / side
+    at = lambda place: (left + scale * (place[0] % side), TOP - 12 + SIDE - scale * (place[1] % side))
     for ink in sorted(set(inks)):
-        for radius in sorted({r for r, each in zip(radii, inks, strict=True) if each == ink}):
-            path = "".join(
-                f"M{number(left + scale * (x % side))} {number(TOP - 12 + SIDE - scale * (y % side))}h0"
-                for (x, y), r, each in zip(centres, radii, inks, strict=True)
-                if each == ink and r == radius
-            )
-            drawing.add(
-                "path", d=path, class_=f"{ink}-line", style=f"stroke-width:{number(2 * radius * scale)}"
-            )
+        places = [at(place) for place, each in zip(centres, inks, strict=True) if each == ink]
+        drawing.dots(places, RADIUS * scale, ink)
 
 
 def random_velocities(count, temperature, seed):
@@ -44,17 +39,18 @@ def random_velocities(count, temperature, seed):
     return velocities - [math.fsum(column) / count for column in velocities.T]
 
 
-def gas(count, packing, temperature, seed, **world_of):
-    """Discs of diameter 1 in a box that repeats."""
-    side = math.sqrt(count * math.pi / 4 / packing)
-    box = ((0, 0), (side, side))
-    centres = ks.place_spheres(np.full(count, 0.5), box, periodic=True, gap=1e-4, seed=seed, dimensions=2)[
-        :, :2
-    ]
-    velocities = random_velocities(count, temperature, seed)
+def flying(centres, velocities, side):
+    """Discs in a box that repeats: their world, ids and motion."""
     motion = ks.Ballistic(centres, velocities)
-    world = ks.World(dimensions=2, box=box, periodic=True, contacts="impacts", **world_of)
-    return side, world, world.add_motion(motion, 0.5), motion
+    world = ks.World(dimensions=2, box=((0, 0), (side, side)), periodic=True, contacts="impacts")
+    return world, world.add_motion(motion, RADIUS), motion
+
+
+def gas(count, packing, temperature, seed):
+    side = math.sqrt(count * math.pi / 4 / packing)
+    radii, box = np.full(count, RADIUS), ((0, 0), (side, side))
+    centres = ks.place_spheres(radii, box, periodic=True, gap=1e-4, seed=seed, dimensions=2)[:, :2]
+    return side, *flying(centres, random_velocities(count, temperature, seed), side)
 
 
 def well():
@@ -81,7 +77,7 @@ def well():
         apart -= side * np.round(apart / side)
         near = np.sum(np.sum(apart**2, axis=2) < 1.5**2, axis=1) - 1
         inks = ["body" if count < 2 else "other" if count < 4 else "probe" for count in near]
-        discs(drawing, left, centres, np.full(count, 0.5), side, inks)
+        discs(drawing, left, centres, side, inks)
     return drawing
 
 
@@ -103,7 +99,7 @@ def cooling():
         speeds = np.linalg.norm(velocities, axis=1)
         fast, slow = np.quantile(speeds, (0.75, 0.25))
         inks = ["probe" if speed > fast else "body" if speed < slow else "other" for speed in speeds]
-        discs(drawing, left, centres, np.full(count, 0.5), side, inks)
+        discs(drawing, left, centres, side, inks)
     return drawing
 
 
@@ -116,9 +112,7 @@ def chain():
         ("at the start", "after 1,500, twice as large"),
     )
     start = np.column_stack([8.0 + 1.15 * np.arange(count), 45.0 + 0.2 * (np.arange(count) % 2)])
-    motion = ks.Ballistic(start, random_velocities(count, 1.0, 7))
-    world = ks.World(dimensions=2, box=((0, 0), (side, side)), periodic=True, contacts="impacts")
-    ids = world.add_motion(motion, 0.5)
+    world, ids, motion = flying(start, random_velocities(count, 1.0, 7), side)
     bond = ks.StepPotential(world, [0.3], [0.0], outside=math.inf)
     world.set_sensor(0, bond.distances)
     for first, second in zip(ids[:-1], ids[1:], strict=True):
@@ -127,7 +121,7 @@ def chain():
         world.run(time, motion, {0: ks.Bouncing(), 1: bond}, events="none")
         centres = motion.states(time)[0][:, :2]
         middle = centres - centres.mean(axis=0) + shown / 2
-        discs(drawing, left, middle, np.full(count, 0.5), shown, ["body"] * count)
+        discs(drawing, left, middle, shown, ["body"] * count)
     return drawing
 
 

@@ -145,8 +145,9 @@ motions, probes, run() and set_motion_limits() are not, and raise StateError.
       .def(py::init(&create_game), py::arg("gravity") = py::make_tuple(0.0, 0.0, 0.0),
            py::arg("respond") = py::none(),
            R"(gravity (length / time^2): shape (3,), or (2,) in two dimensions; acts on all bodies.
-respond: what gives bodies new velocities at an event: a Bouncing, a Roughness, a StepPotential, a dict of these or a function, as for World.run(),
-which may depend on the event alone and may not call the game. None: bodies pass through each other.
+respond: what gives bodies new velocities at an event: a Bouncing, a Roughness, a StepPotential, a dict of these or a
+function, as for World.run(), which may depend on the event alone and may not call the game. None: bodies pass through
+each other.
 All other arguments are those of World, by name.)")
       .def("step", &step_game, py::arg("dt"),
            R"(Goes on by dt > 0, answers all events, and returns them as Events, in order.

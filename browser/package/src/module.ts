@@ -129,7 +129,10 @@ export class Module extends Memory {
     this.settle(name, values);
   }
   private settle(name: string, values: Argument[]): void {
-    const status = this.invoke(name, values);
+    this.judge(this.invoke(name, values), name);
+  }
+  /** Throws what a callback threw, or the error of this status. */
+  private judge(status: number, name: string): void {
     if (this.thrown !== null) this.rethrow();
     if (status) throw this.error(status, name);
   }
@@ -145,26 +148,21 @@ export class Module extends Memory {
     this.settle(name, values);
     return this.i32[this.result >> 2]!;
   }
-  /** Does what number() does for a function that takes an object alone: that of a getter, which has to be quick. */
-  numberOf(name: string, object: Value): number {
-    this.writeResult(name, object);
-    return this.f64[this.result >> 3]!;
-  }
-  /** The same for word(). */
-  wordOf(name: string, object: Value): number {
-    this.writeResult(name, object);
-    return this.i32[this.result >> 2]!;
-  }
-  private writeResult(name: string, object: Value): void {
-    const status = this.exports[name]!(object, this.result);
-    if (this.thrown !== null) this.rethrow();
-    if (status) throw this.error(status, name);
-  }
   /** Does the same for one of 64 bits, such as a handle. */
   handle(name: string, ...values: Argument[]): bigint {
     values.push(this.result);
     this.settle(name, values);
     return this.u64[this.result >> 3]!;
+  }
+  /** Does what number() does for a function that takes an object alone: that of a getter, which has to be quick. */
+  numberOf(name: string, object: Value): number {
+    this.judge(this.exports[name]!(object, this.result), name);
+    return this.f64[this.result >> 3]!;
+  }
+  /** Does what word() does for such a function. */
+  wordOf(name: string, object: Value): number {
+    this.judge(this.exports[name]!(object, this.result), name);
+    return this.i32[this.result >> 2]!;
   }
   /** Calls a function that writes a record to its last argument, and returns a copy. */
   read(layout: { readonly size: number }, name: string, ...values: Argument[]): Place {
