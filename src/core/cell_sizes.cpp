@@ -48,32 +48,30 @@ std::vector<std::uint32_t> RegionCells::sample() const {
   return some;
 }
 
-/// Returns the mean number of regions in the cell of a region; 0 if there is none of this level among these.
-double RegionCells::crowding(std::size_t number, const std::vector<std::uint32_t>& some) const {
+/// Counts how many regions are in the cell of a region, on average.
+RegionCells::Crowding RegionCells::crowding(std::size_t number,
+                                            const std::vector<std::uint32_t>& some) const {
   const Level& level = levels_[number];
   const auto cell_in = [&](const RegionBlock& block, std::uint32_t lane) {
     return cell_of(level, block.x[lane], block.y[lane], block.z[lane]);
   };
-  double sum = 0.0, regions = 0.0;
+  Crowding crowd;
   for (const std::uint32_t slot : some) {
     if (level_of(reach_of(slot)) != number) continue;
     const auto cell = cell_in(blocks_[slot / lanes], slot % lanes);
-    regions += 1.0;
+    crowd.regions += 1.0;
     for (std::uint32_t place = chain_of(level, cell); place != none; place = links_[place].next)
       for (std::uint32_t lane = 0; lane < links_[place].count; ++lane)
         if (level_of(blocks_[place].reach[lane]) == number && cell_in(blocks_[place], lane) == cell)
-          sum += 1.0;
+          crowd.in_cells += 1.0;
   }
-  return regions > 0.0 ? sum / regions : 0.0;
+  return crowd;
 }
 
-/// Returns the width of cells that suits a level, given the present one. `narrowest`: of all levels.
-double RegionCells::wanted_width(std::size_t number, double narrowest,
-                                 const std::vector<std::uint32_t>& some) const {
-  const Level& level = levels_[number];
-  const double crowd = crowding(number, some);
-  if (!(crowd > 0.0)) return level.width;
-  const double by = std::clamp(wanted_in_cell / crowd, 0x1p-9, 0x1p9);
+/// Returns the width of cells that suits a level where some regions are so crowded in the present ones.
+/// `narrowest`: of all levels.
+double RegionCells::wanted_width(const Level& level, double narrowest, const Crowding& crowd) const {
+  const double by = std::clamp(wanted_in_cell * crowd.regions / crowd.in_cells, 0x1p-9, 0x1p9);
   const double width = level.width * (dimensions_ == 2 ? std::sqrt(by) : cube_root(by));
   return std::clamp(width, narrowest, widest * static_cast<double>(level.largest_reach));
 }
@@ -100,7 +98,7 @@ std::pair<float, float> RegionCells::typical_reaches() const {
   for (const std::uint32_t slot : sample()) reaches.push_back(reach_of(slot));
   std::sort(reaches.begin(), reaches.end());
   const float median = reaches[reaches.size() / 2];
-  return {median, std::min(1.05F * reaches[reaches.size() - 1 - reaches.size() / 32], 2.0F * median)};
+  return {median, std::min(1.25F * reaches[reaches.size() - 1 - reaches.size() / 32], 2.0F * median)};
 }
 
 bool RegionCells::levels_suit() const {
@@ -153,8 +151,12 @@ void RegionCells::refine(Balls& balls) {
     for (std::size_t number = 0; number < most_levels; ++number) {
       Level& level = levels_[number];
       if (level.regions == 0) continue;
-      const double width = wanted_width(number, 0.5 * static_cast<double>(median_), some);
-      if (width < slack * level.width && width * slack > level.width) continue;
+      const Crowding crowd = crowding(number, some);
+      if (!(crowd.regions > 0.0)) continue;
+      const double width = wanted_width(level, 0.5 * static_cast<double>(median_), crowd);
+      // Few regions tell little.
+      const double fine = slack + 1.0 / std::sqrt(crowd.regions);
+      if (width < fine * level.width && width * fine > level.width) continue;
       set_width(level, width);
       is_fine = false;
     }

@@ -152,8 +152,12 @@ class RegionCells {
   void refine(Balls& balls);
   void set_width(Level& level, double width);
   std::vector<std::uint32_t> sample() const;
-  double crowding(std::size_t number, const std::vector<std::uint32_t>& some) const;
-  double wanted_width(std::size_t number, double narrowest, const std::vector<std::uint32_t>& some) const;
+  /// Some regions of a level, and how many there are in their cells.
+  struct Crowding {
+    double regions = 0.0, in_cells = 0.0;
+  };
+  Crowding crowding(std::size_t number, const std::vector<std::uint32_t>& some) const;
+  double wanted_width(const Level& level, double narrowest, const Crowding& crowd) const;
   void insert_all(Balls& balls);
   void choose_chains();
   double reserve_cells(Level& level) const;
