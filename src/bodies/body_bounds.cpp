@@ -77,6 +77,14 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
   return sphere;
 }
 
+BodyMotion motion_at(const Bodies& bodies, double now, std::uint32_t number) {
+  const Body& body = bodies[number];
+  const RigidRecord* const turning = bodies.rigid.find(body);
+  return {body.bound.velocity_at(now),
+          turning ? turning->after_report(now - body.bound.time).angular_velocity : Vec3{},
+          bodies.radii.any() ? changing_size(bodies, now, number).rate : 0.0, body.contact_events};
+}
+
 Box box_now(const Bodies& bodies, const CollisionShape& extent, double now) {
   if (extent.shape && extent.is_static) return cut_box(bodies, *extent.shape);
   return bodies.space().within(swept_box(extent.bound, now, now));

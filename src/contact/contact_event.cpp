@@ -30,12 +30,12 @@ MeshPoint nearest_of(const Shape& shape, const Vec3& from) {
 }
 
 /// Sets normal, gap and point of an event between two spheres. Coinciding centres get the normal (1, 0, 0).
-void describe_spheres(Event& event, const Sphere& first, const Sphere& second) {
-  const Vec3 difference = second.state.position - first.state.position;
+void describe_spheres(Event& event, double first_radius, double second_radius) {
+  const Vec3 difference = event.second_state.position - event.first_state.position;
   const double distance = norm(difference);
   event.normal = distance > 0.0 ? difference / distance : Vec3{1.0, 0.0, 0.0};
-  event.gap = distance - (first.radius + second.radius);
-  event.point = first.state.position + event.normal * (first.radius + 0.5 * event.gap);
+  event.gap = distance - (first_radius + second_radius);
+  event.point = event.first_state.position + event.normal * (first_radius + 0.5 * event.gap);
 }
 
 /// Sets normal, gap and point of an event between a sphere and a body with a shape. Either may be
@@ -142,24 +142,19 @@ void describe_first(Event& event, const Sphere& first) {
   event.first_angular_velocity = first.rotation.angular_velocity;
 }
 
-/// Describes an event between two bodies whose positions are already in the images that meet.
-void describe_as_seen(Event& event, const Sphere& first, const Sphere& second, bool is_flat) {
-  describe_first(event, first);
-  event.second_state = second.state;
-  event.second_traits = second.traits;
-  event.second_user_data = second.user_data;
-  event.second_mass = second.mass;
-  event.second_angular_velocity = second.rotation.angular_velocity;
+/// Sets normal, gap, point and parts of an event between two bodies of which one at least is no ball.
+/// `second_position`: that of the second one in the image that meets the first one.
+void describe_shapes(Event& event, const Sphere& first, const Sphere& second, const Vec3& second_position,
+                     bool is_flat) {
+  Sphere seen = second;
+  seen.state.position = second_position;
   if (first.rigid || second.rigid) {
-    describe_parts(event, first, second);
-  } else if (!first.shape && !second.shape) {
-    describe_spheres(event, first, second);
+    describe_parts(event, first, seen);
   } else if (first.shape && second.shape) {
-    describe_surfaces(event, first, second, is_flat);
+    describe_surfaces(event, first, seen, is_flat);
   } else {
-    describe_surface(event, first.shape ? second : first, first.shape ? first : second);
+    describe_surface(event, first.shape ? seen : first, first.shape ? first : seen);
   }
-  event.approach_speed = approach_speed(event, first.radius_rate + second.radius_rate);
 }
 
 }  // namespace
@@ -173,10 +168,19 @@ Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& 
 }
 
 void describe(Event& event, const Sphere& first, const Sphere& second, const Space& space) {
-  if (!space.repeats()) return describe_as_seen(event, first, second, space.is_flat());
-  Sphere seen = second;
-  seen.state.position += space.shift_to_nearest(second.state.position, first.state.position);
-  describe_as_seen(event, first, seen, space.is_flat());
+  describe_first(event, first);
+  event.second_state = second.state;
+  event.second_traits = second.traits;
+  event.second_user_data = second.user_data;
+  event.second_mass = second.mass;
+  event.second_angular_velocity = second.rotation.angular_velocity;
+  if (space.repeats())
+    event.second_state.position += space.shift_to_nearest(second.state.position, first.state.position);
+  if (first.rigid || second.rigid || first.shape || second.shape)
+    describe_shapes(event, first, second, event.second_state.position, space.is_flat());
+  else
+    describe_spheres(event, first.radius, second.radius);
+  event.approach_speed = approach_speed(event, first.radius_rate + second.radius_rate);
 }
 
 Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& box, Wall wall) {
@@ -204,13 +208,13 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
   event.approach_speed = approach_speed(event, sphere.radius_rate);
 }
 
-void turn(Event& event, const Sphere& first, const Sphere& second) {
-  event.first_state.velocity = first.state.velocity;
-  event.first_angular_velocity = first.rotation.angular_velocity;
+void turn(Event& event, const BodyMotion& first, const BodyMotion& second) {
+  event.first_state.velocity = first.velocity;
+  event.first_angular_velocity = first.spin;
   double rates = first.radius_rate;
   if (event.second != no_body) {
-    event.second_state.velocity = second.state.velocity;
-    event.second_angular_velocity = second.rotation.angular_velocity;
+    event.second_state.velocity = second.velocity;
+    event.second_angular_velocity = second.spin;
     rates += second.radius_rate;
   }
   event.approach_speed = approach_speed(event, rates);
@@ -229,6 +233,11 @@ double approach_error(const State& first, const State& second, double arm) {
          (turned < most_turned ? turned : most_turned) * norm(velocity_a - velocity_b);
 }
 
+double approach_error(const Event& event, double arm, double first_rate, double second_rate) {
+  const double rates = std::abs(first_rate) + (event.wall == Wall::none ? std::abs(second_rate) : 0.0);
+  return approach_error(event, arm) + rate_error(rates);
+}
+
 double approach_error(const Event& event, double arm) {
   if (event.first_angular_velocity == Vec3{} && event.second_angular_velocity == Vec3{})
     return approach_error(event.first_state, event.second_state, arm);
@@ -241,21 +250,22 @@ double approach_error(const Event& event, double arm) {
                     lost(event.second_state, event.second_angular_velocity));
 }
 
-double approach_error(const Event& event, const Sphere& first, const Sphere& second) {
-  const double rates =
-      std::abs(first.radius_rate) + (event.wall == Wall::none ? std::abs(second.radius_rate) : 0.0);
-  const auto with_arm = [&](double arm) { return approach_error(event, arm) + rate_error(rates); };
-  if (event.wall != Wall::none) return with_arm(infinity);
+double arm_of(const Event& event, const Sphere& first, const Sphere& second) {
+  if (event.wall != Wall::none) return infinity;
   const auto radius = [](const Sphere& body) {
     return body.rigid ? least_radius(body.rigid->parts) + body.position_error : body.radius;
   };
-  if (!first.shape && !second.shape) return with_arm(event.gap + radius(first) + radius(second));
+  if (!first.shape && !second.shape) return event.gap + radius(first) + radius(second);
   const auto is_half_space = [](const Sphere& body) {
     return body.shape && std::holds_alternative<HalfSpace>(*body.shape);
   };
-  if (is_half_space(first) || is_half_space(second)) return with_arm(infinity);
-  if (first.shape && second.shape) return with_arm(event.gap + first.position_error + second.position_error);
-  return with_arm(event.gap + radius(first.shape ? second : first));
+  if (is_half_space(first) || is_half_space(second)) return infinity;
+  if (first.shape && second.shape) return event.gap + first.position_error + second.position_error;
+  return event.gap + radius(first.shape ? second : first);
+}
+
+double approach_error(const Event& event, const Sphere& first, const Sphere& second) {
+  return approach_error(event, arm_of(event, first, second), first.radius_rate, second.radius_rate);
 }
 
 Event woke_event(double time, const Sphere& sphere) {

@@ -35,6 +35,17 @@ struct Sphere {
   double other_acceleration = 0.0;     ///< largest one of a point beside the planned one (length / time^2)
 };
 
+/// How a body moves now, as far as a response can have changed it.
+struct BodyMotion {
+  Vec3 velocity;
+  Vec3 spin;           ///< angular velocity of a rigid body
+  double radius_rate;  ///< at which the radius grows (length / time)
+  ContactEvents wanted;
+};
+inline BodyMotion motion_of(const Sphere& body) {
+  return {body.state.velocity, body.rotation.angular_velocity, body.radius_rate, body.wanted};
+}
+
 /// Returns the largest acceleration with which the two can be pressed upon each other (length / time^2). An
 /// acceleration that both have in common does not press.
 inline double relative_acceleration(const Sphere& first, const Sphere& second) {
@@ -63,16 +74,19 @@ void describe(Event& event, const Sphere& first, const Sphere& second, const Spa
 void describe(Event& event, const Sphere& sphere, const Box& box);
 /// Sets what an event says of velocities to those that its bodies have now, where they were described at this
 /// time. `second` is ignored if the event is about a wall.
-void turn(Event& event, const Sphere& first, const Sphere& second);
+void turn(Event& event, const BodyMotion& first, const BodyMotion& second);
 /// Bounds the rounding error in the approach speed of two bodies with these states (length / time).
 /// `arm` is the length of the vector along the normal: from centre to centre, or from a centre to the nearest
 /// point of a shape; +infinity where the normal is that of a wall or a half-space. The bound covers rounding
 /// by the caller in positions and velocities: a few units in the last place each.
 double approach_error(const State& first, const State& second, double arm);
 /// Bounds the rounding error of Event::approach_speed after describe(). Rigid bodies count with their
-/// velocities at the contact point.
+/// velocities at the contact point. The rates are those at which the radii grow (length / time).
 double approach_error(const Event& event, double arm);
+double approach_error(const Event& event, double arm, double first_rate, double second_rate);
 double approach_error(const Event& event, const Sphere& first, const Sphere& second);
+/// Returns the arm of the normal of an event.
+double arm_of(const Event& event, const Sphere& first, const Sphere& second);
 /// Returns a woke event. The body stands at the centre of the sphere.
 Event woke_event(double time, const Sphere& sphere);
 /// Returns a bound_violation event. The sphere's state is the violating report, and `acceleration_limit` that

@@ -1,6 +1,7 @@
 #include "contact/pending_events.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kinesphere {
 namespace {
@@ -45,40 +46,34 @@ void PendingEvents::end(ContactGraph& graph, const Event& contact, ContactEvents
 void PendingEvents::forget_delivered(const ContactGraph& graph, std::uint32_t body) {
   if (!delivered_) return;
   const auto is_body = [&](BodyId id) { return id != no_body && graph.number_of(id) == body; };
-  if (is_body(delivered_->first) || is_body(delivered_->second)) delivered_.reset();
+  if (is_body(delivered_->event.first) || is_body(delivered_->event.second)) delivered_.reset();
 }
 
-void PendingEvents::note_response(ContactGraph& graph, const Sphere& first, const Sphere& second) {
-  const Event reported = *delivered_;
-  delivered_.reset();
-  const auto moves_on = [](const Sphere& now, const State& state, const Vec3& spin) {
-    return now.state.velocity == state.velocity && now.rotation.angular_velocity == spin;
+void PendingEvents::note_response(ContactGraph& graph, const BodyMotion& first, const BodyMotion& second) {
+  Event& event = delivered_->event;
+  const auto moves_on = [](const BodyMotion& now, const State& state, const Vec3& spin) {
+    return now.velocity == state.velocity && now.spin == spin;
   };
-  if (moves_on(first, reported.first_state, reported.first_angular_velocity) &&
-      (reported.second == no_body ||
-       moves_on(second, reported.second_state, reported.second_angular_velocity)))
+  if (moves_on(first, event.first_state, event.first_angular_velocity) &&
+      (event.second == no_body || moves_on(second, event.second_state, event.second_angular_velocity)))
     return;
-  const ContactEvents wanted = wanted_of(first, second);
-  const Threshold threshold = graph.threshold_of(reported, wanted);
+  const ContactEvents wanted = first.wanted | second.wanted;
+  const Threshold threshold = graph.threshold_of(event, wanted);
   if (!threshold.within || threshold.state.approach == ApproachState::ignored) return;
-  Event now = reported;
-  turn(now, first, second);
+  const double before = event.approach_speed;
+  turn(event, first, second);
+  const double now = event.approach_speed;
   ContactState state = threshold.state;
-  const double error = approach_error(now, first, second);
-  const auto approaches = [&](const Event& event) {
-    return graph.rule().is_approach(event.gap, event.approach_speed, error);
-  };
-  const bool passes = approaches(reported) && approaches(now) &&
-                      now.approach_speed > largest_rest_of_approach * reported.approach_speed;
+  const double error = approach_error(event, delivered_->arm, first.radius_rate, second.radius_rate);
+  const auto is_approach = [&](double speed) { return graph.rule().is_approach(event.gap, speed, error); };
+  const bool passes = is_approach(before) && is_approach(now) && now > largest_rest_of_approach * before;
   state.approach = passes ? ApproachState::reported : ApproachState::watched;
   // A response to a jammed contact should return no speed (Event::jammed), but for rounding.
-  const double returned = -now.approach_speed;
-  if (reported.jammed && returned > error + 0x1p-20 * reported.approach_speed && state.jams == 0)
-    state.jams = 1;
+  if (event.jammed && -now > error + 0x1p-20 * before && state.jams == 0) state.jams = 1;
   if (state.approach == ApproachState::watched && !wants_ends(wanted) && !state.has_history()) {
-    graph.set_touching(reported, false);
+    graph.set_touching(event, false);
   } else {
-    graph.set_state(reported, state);
+    graph.set_state(event, state);
   }
 }
 
@@ -103,7 +98,8 @@ bool PendingEvents::take_effect(ContactGraph& graph, Event& event, const Sphere&
   } else {
     const ContactEvents wanted = wanted_of(first, second);
     const Threshold threshold = threshold_of(graph, event, wanted);
-    const double error = approach_error(event, first, second);
+    const double arm = arm_of(event, first, second);
+    const double error = approach_error(event, arm, first.radius_rate, second.radius_rate);
     if (graph.rule().decide(threshold, event.gap - event.distance, event.approach_speed, error) !=
         ContactRule::Change::begin)
       return false;
@@ -119,7 +115,7 @@ bool PendingEvents::take_effect(ContactGraph& graph, Event& event, const Sphere&
       // The begin itself says that the two overlap.
       state.guard_reported = state.guard_reported || event.gap < -graph.rule().tolerance();
       graph.set_state(event, state);
-      delivered_ = event;
+      delivered_ = {event, arm};
     }
   }
   changed_.emplace_back(graph.number_of(first.id), graph.number_of(second.id));
@@ -159,8 +155,9 @@ bool PendingEvents::is_valid(std::size_t bodies, double time, const std::optiona
          std::all_of(ended_.begin(), ended_.end(), event_is_valid) &&
          std::all_of(delivered_guards_.begin(), delivered_guards_.end(), event_is_valid) &&
          std::all_of(changed_.begin(), changed_.end(), change_is_valid) &&
-         (!delivered_ || (event_is_valid(*delivered_) && (delivered_->kind == EventKind::contact_begin ||
-                                                          delivered_->kind == EventKind::wall_begin)));
+         (!delivered_ || (event_is_valid(delivered_->event) && !std::isnan(delivered_->arm) &&
+                          (delivered_->event.kind == EventKind::contact_begin ||
+                           delivered_->event.kind == EventKind::wall_begin)));
 }
 
 }  // namespace kinesphere

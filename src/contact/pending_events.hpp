@@ -79,7 +79,7 @@ class PendingEvents {
   template <class IsThere, class SphereNow, class SensesIn>
   std::optional<Event> pop(ContactGraph& graph, IsThere is_there, SphereNow sphere, SensesIn senses_in,
                            const std::optional<Box>& box) {
-    note_response(graph, sphere);
+    note_response(graph, [&](std::uint32_t number) { return motion_of(sphere(number)); });
     std::optional<Event> event;
     if (!ended_.empty()) {
       event = ended_.extract(ended_.begin()).value();
@@ -107,13 +107,14 @@ class PendingEvents {
   /// Takes note of the response to the last delivered begin: if the two still approach with more than half of
   /// their speed, they are let through until that changes; otherwise their next approach is an event. pop()
   /// does this before it delivers another event. Call it before velocities change for another reason, and
-  /// before bodies are recertified.
-  template <class SphereNow>
-  void note_response(ContactGraph& graph, SphereNow sphere) {
+  /// before bodies are recertified. `motion(number)` returns how a body moves now.
+  template <class MotionNow>
+  void note_response(ContactGraph& graph, MotionNow motion) {
     if (!delivered_) return;
-    const Sphere first = sphere(graph.number_of(delivered_->first));
-    const bool is_pair = delivered_->second != no_body;
-    note_response(graph, first, is_pair ? sphere(graph.number_of(delivered_->second)) : first);
+    const BodyMotion first = motion(graph.number_of(delivered_->event.first));
+    const bool is_pair = delivered_->event.second != no_body;
+    note_response(graph, first, is_pair ? motion(graph.number_of(delivered_->event.second)) : first);
+    delivered_.reset();
   }
   /// Returns true if note_response() would look at a begin.
   bool awaits_response() const { return delivered_.has_value(); }
@@ -136,6 +137,13 @@ class PendingEvents {
                 const std::function<bool(BodyId)>& is_known) const;
 
  private:
+  /// A begin that has been delivered.
+  struct Delivered {
+    Event event;
+    double arm;  ///< arm_of() when it was described
+    static void serialize(auto& self, auto& archive) { archive(self.event, self.arm); }
+  };
+
   /// Returns the end events of all contacts and overlaps of the body, as if they ended now. `sphere(number)`
   /// returns the present state of a body.
   template <class SphereNow>
@@ -159,7 +167,7 @@ class PendingEvents {
   }
   static Senses senses_at_enter(const ContactGraph& graph, const Event& leave);
   void end(ContactGraph& graph, const Event& contact, ContactEvents wanted);
-  void note_response(ContactGraph& graph, const Sphere& first, const Sphere& second);
+  void note_response(ContactGraph& graph, const BodyMotion& first, const BodyMotion& second);
   bool take_effect(ContactGraph& graph, Event& event, const Sphere& first, const Sphere& second,
                    const std::optional<Box>& box);
 
@@ -167,8 +175,8 @@ class PendingEvents {
   std::set<Event, DeliveredBefore> ended_;  ///< ended by the caller's changes; also bodies that have woken
   std::set<Event, DeliveredBefore> delivered_guards_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
-  std::optional<Event> delivered_;  ///< the last begin delivered, until the response to it is noted
-  bool are_outdated_ = true;        ///< bodies may have changed since the pending events were described
+  std::optional<Delivered> delivered_;  ///< the last one, until the response to it is noted
+  bool are_outdated_ = true;            ///< bodies may have changed since the pending events were described
 };
 
 }  // namespace kinesphere

@@ -203,7 +203,8 @@ void EventProcessor::turn_back(const Event& crossing) {
 }
 
 void EventProcessor::note_response() {
-  events_.note_response(contacts(), [this](std::uint32_t number) { return sphere(number); });
+  events_.note_response(contacts(),
+                        [this](std::uint32_t number) { return motion_at(bodies(), time_, number); });
 }
 
 Result<void> EventProcessor::recertify_all() {

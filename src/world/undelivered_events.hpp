@@ -1,23 +1,22 @@
-// Events that wait for their delivery by a run.
+// The event that an interrupted run leaves behind.
 #pragma once
 
-#include <deque>
 #include <optional>
+#include <utility>
 
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {
 
-/// Events that the engine has delivered, but that run() has not completely processed.
+/// What a run leaves behind, and what it is doing.
 struct World::UndeliveredEvents {
-  std::deque<Event> events{};         ///< responses applied, not yet delivered to the sink; in order
-  std::optional<Event> unanswered{};  ///< response not applied; comes after `events`
+  std::optional<Event> unanswered{};  ///< delivered by the engine, but its response has not been applied
   bool delivering = false;            ///< true inside the sink
   bool ended = false;                 ///< the sink has called World::end_run()
 
-  bool empty() const { return events.empty() && !unanswered; }
-  /// Removes and returns the first event, or nullopt if there is none.
-  std::optional<Event> take();
+  bool empty() const { return !unanswered; }
+  /// Removes and returns the event, or nullopt if there is none.
+  std::optional<Event> take() { return std::exchange(unanswered, std::nullopt); }
 };
 
 }  // namespace kinesphere

@@ -8,6 +8,7 @@
 #include "processor/responses.hpp"
 #include "world/changing.hpp"
 #include "world/preconditions.hpp"
+#include "world/remembering_source.hpp"
 #include "world/undelivered_events.hpp"
 
 namespace kinesphere {
@@ -45,7 +46,7 @@ class World::Run {
   /// Without respond_by(), events get no response. The arguments must outlive the run.
   Run(World& world, double until, const Probe& probe, const EventFn& sink, Workers* workers)
       : world_(world), until_(until), probe_(probe), on_event_(sink), lease_(workers) {}
-  void respond_by(MotionSource& source, const ResponseFn& respond) {
+  void respond_by(RememberingSource& source, const ResponseFn& respond) {
     source_ = &source;
     respond_ = &respond;
   }
@@ -61,46 +62,38 @@ class World::Run {
     world_.undelivered_->ended = false;
     world_.running_ = true;
     const ScopeGuard stop([&] { world_.running_ = false; });
-    if (!deliver()) return {};
     world_.changeable().begin_call(until_);
-    for (;;) {
-      const auto done = step();
-      if (!done) return done.error();
-      if (!deliver()) return {};
-      if (*done) return {};
+    while (!world_.undelivered_->ended) {
+      const auto event = next_answered();
+      if (!event) return event.error();
+      if (!*event) return {};
+      deliver(**event);
     }
+    return {};
   }
 
  private:
-  /// Passes the events to the sink. Returns false if the sink ends the run.
-  bool deliver() {
+  /// Passes an event to the sink.
+  void deliver(const Event& event) {
     UndeliveredEvents& undelivered = *world_.undelivered_;
-    while (!undelivered.events.empty() && !undelivered.ended) {
-      const Event event = undelivered.events.front();
-      undelivered.events.pop_front();
-      world_.changeable().note_delivery();
-      world_.open_ = std::exchange(stops_, false);
-      undelivered.delivering = true;
-      const ScopeGuard close([&] { world_.open_ = undelivered.delivering = false; });
-      on_event_(event);
-    }
-    return !undelivered.ended;
+    if (source_ != nullptr) source_->forget();
+    world_.changeable().note_delivery();
+    world_.open_ = std::exchange(stops_, false);
+    undelivered.delivering = true;
+    const ScopeGuard close([&] { world_.open_ = undelivered.delivering = false; });
+    on_event_(event);
   }
 
-  /// Processes one event, or advances to the end of the run if there is none before. Returns true if it has.
-  Result<bool> step() {
-    UndeliveredEvents& undelivered = *world_.undelivered_;
-    const auto event = next();
+  /// Processes the next event, with its response. Returns nullopt if there is none before the end of the run.
+  Result<std::optional<Event>> next_answered() {
+    auto event = next();
     if (!event) return renamed(event.error());
-    if (!*event) return true;
-    if (respond_ != nullptr) {
-      // Keeps the event unless its response is applied, also if the callback throws.
-      ScopeGuard keep([&] { undelivered.unanswered = *event; });
-      if (auto answered = answer_one(**event); !answered) return answered.error();
-      keep.dismiss();
-    }
-    undelivered.events.push_back(**event);
-    return false;
+    if (!*event || respond_ == nullptr) return event;
+    // Keeps the event unless its response is applied, also if the callback throws.
+    ScopeGuard keep([&] { world_.undelivered_->unanswered = *event; });
+    if (auto answered = answer_one(**event); !answered) return answered.error();
+    keep.dismiss();
+    return event;
   }
 
   Result<std::optional<Event>> next() {
@@ -238,19 +231,13 @@ class World::Run {
   const EventFn& on_event_;
   PoolLease lease_;
   bool stops_ = false;  ///< the response to the last event has Response::stop, and the sink is still to come
-  MotionSource* source_ = nullptr;
+  RememberingSource* source_ = nullptr;
   const ResponseFn* respond_ = nullptr;
 };
 
-std::optional<Event> World::UndeliveredEvents::take() {
-  if (events.empty()) return std::exchange(unanswered, std::nullopt);
-  std::optional<Event> first = events.front();
-  events.pop_front();
-  return first;
-}
-
-Result<void> World::run(double until, MotionSource& source, const ResponseFn& respond, const EventFn& sink,
+Result<void> World::run(double until, MotionSource& motions, const ResponseFn& respond, const EventFn& sink,
                         Workers* workers) {
+  RememberingSource source(motions);
   const Probe probe = [&source](std::span<const BodyId> ids, double time, std::span<State> states) {
     source.states(ids, time, states);
   };
