@@ -305,7 +305,7 @@ Result<void> check_reach(double reach, const BodyDefinition& body, BodyId id, st
 
 Result<void> check_velocity(const Vec3& velocity, BodyId body, const WorldDefinition& world,
                             std::string_view call) {
-  if (fits(velocity, limits::largest_speed) && (world.dimensions == 3 || velocity.z == 0.0)) return {};
+  if (is_valid_velocity(velocity, world)) return {};
   InputCheck check(call);
   check.within({"velocity", body}, velocity, limits::largest_speed);
   require_plane(check, {"velocity", body}, velocity, world);

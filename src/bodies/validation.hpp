@@ -78,13 +78,16 @@ inline double coordinate_limit(const WorldDefinition& world) {
 inline bool fits(const Vec3& v, double limit) {
   return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
 }
+/// Returns true if check_velocity() accepts the velocity.
+inline bool is_valid_velocity(const Vec3& velocity, const WorldDefinition& world) {
+  return fits(velocity, limits::largest_speed) && (world.dimensions == 3 || velocity.z == 0.0);
+}
 /// Returns true if the position, in whichever image, is near enough to be wrapped into periodic space.
 bool fits_in_images(const Vec3& position, const WorldDefinition& world);
 /// Returns true if check_report() accepts the state.
 inline bool is_valid_report(const State& state, const WorldDefinition& world) {
   return (fits(state.position, coordinate_limit(world)) || fits_in_images(state.position, world)) &&
-         fits(state.velocity, limits::largest_speed) &&
-         (world.dimensions == 3 || (state.position.z == 0.0 && state.velocity.z == 0.0));
+         is_valid_velocity(state.velocity, world) && (world.dimensions == 3 || state.position.z == 0.0);
 }
 
 /// Returns the error of a body that would overlap `other`.

@@ -157,6 +157,20 @@ void describe_shapes(Event& event, const Sphere& first, const Sphere& second, co
   }
 }
 
+/// Returns the arm of the normal of an event between two bodies (approach_error()).
+double arm_of(const Event& event, const Sphere& first, const Sphere& second) {
+  const auto radius = [](const Sphere& body) {
+    return body.rigid ? least_radius(body.rigid->parts) + body.position_error : body.radius;
+  };
+  if (!first.shape && !second.shape) return event.gap + radius(first) + radius(second);
+  const auto is_half_space = [](const Sphere& body) {
+    return body.shape && std::holds_alternative<HalfSpace>(*body.shape);
+  };
+  if (is_half_space(first) || is_half_space(second)) return infinity;
+  if (first.shape && second.shape) return event.gap + first.position_error + second.position_error;
+  return event.gap + radius(first.shape ? second : first);
+}
+
 }  // namespace
 
 Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b, const Space& space) {
@@ -233,39 +247,28 @@ double approach_error(const State& first, const State& second, double arm) {
          (turned < most_turned ? turned : most_turned) * norm(velocity_a - velocity_b);
 }
 
-double approach_error(const Event& event, double arm, double first_rate, double second_rate) {
-  const double rates = std::abs(first_rate) + (event.wall == Wall::none ? std::abs(second_rate) : 0.0);
-  return approach_error(event, arm) + rate_error(rates);
-}
-
-double approach_error(const Event& event, double arm) {
+double approach_error(const Event& event, double arm, double rates) {
   if (event.first_angular_velocity == Vec3{} && event.second_angular_velocity == Vec3{})
-    return approach_error(event.first_state, event.second_state, arm);
+    return approach_error(event.first_state, event.second_state, arm) + rate_error(rates);
   // What the terms of the velocities at the point lose.
   const auto lost = [&](const State& state, const Vec3& spin) {
     return norm_one(state.velocity) + norm(spin) * norm(event.point - state.position);
   };
   return approach_error(first_at_point(event), second_at_point(event), arm) +
          0x1p-49 * (lost(event.first_state, event.first_angular_velocity) +
-                    lost(event.second_state, event.second_angular_velocity));
+                    lost(event.second_state, event.second_angular_velocity)) +
+         rate_error(rates);
 }
 
-double arm_of(const Event& event, const Sphere& first, const Sphere& second) {
-  if (event.wall != Wall::none) return infinity;
-  const auto radius = [](const Sphere& body) {
-    return body.rigid ? least_radius(body.rigid->parts) + body.position_error : body.radius;
-  };
-  if (!first.shape && !second.shape) return event.gap + radius(first) + radius(second);
-  const auto is_half_space = [](const Sphere& body) {
-    return body.shape && std::holds_alternative<HalfSpace>(*body.shape);
-  };
-  if (is_half_space(first) || is_half_space(second)) return infinity;
-  if (first.shape && second.shape) return event.gap + first.position_error + second.position_error;
-  return event.gap + radius(first.shape ? second : first);
-}
-
-double approach_error(const Event& event, const Sphere& first, const Sphere& second) {
-  return approach_error(event, arm_of(event, first, second), first.radius_rate, second.radius_rate);
+ContactTerms terms_of(const Event& event, const Sphere& first, const Sphere& second) {
+  if (event.wall != Wall::none)
+    return {first.wanted, infinity, std::abs(first.radius_rate),
+            norm(first.planned_acceleration) + first.other_acceleration};
+  // An acceleration that both have in common does not press.
+  return {first.wanted | second.wanted, arm_of(event, first, second),
+          std::abs(first.radius_rate) + std::abs(second.radius_rate),
+          norm(first.planned_acceleration - second.planned_acceleration) +
+              (first.other_acceleration + second.other_acceleration)};
 }
 
 Event woke_event(double time, const Sphere& sphere) {

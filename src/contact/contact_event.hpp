@@ -46,24 +46,8 @@ inline BodyMotion motion_of(const Sphere& body) {
   return {body.state.velocity, body.rotation.angular_velocity, body.radius_rate, body.wanted};
 }
 
-/// Returns the largest acceleration with which the two can be pressed upon each other (length / time^2). An
-/// acceleration that both have in common does not press.
-inline double relative_acceleration(const Sphere& first, const Sphere& second) {
-  return norm(first.planned_acceleration - second.planned_acceleration) +
-         (first.other_acceleration + second.other_acceleration);
-}
-/// Returns the acceleration with which a body can be pressed upon a wall (length / time^2).
-inline double largest_acceleration(const Sphere& body) {
-  return norm(body.planned_acceleration) + body.other_acceleration;
-}
-
 /// Bounds the rounding error that radii that change at these rates add to the approach speed.
 inline double rate_error(double rates) { return 0x1p-49 * rates; }
-
-/// Returns the contact events that a pair reports; for a wall, `second` is the body again.
-inline ContactEvents wanted_of(const Sphere& first, const Sphere& second) {
-  return first.wanted | second.wanted;
-}
 
 /// Event::first becomes the body with the smaller id, in whichever order the two are passed. In periodic
 /// space the image of Event::second nearest to Event::first is described.
@@ -81,12 +65,24 @@ void turn(Event& event, const BodyMotion& first, const BodyMotion& second);
 /// by the caller in positions and velocities: a few units in the last place each.
 double approach_error(const State& first, const State& second, double arm);
 /// Bounds the rounding error of Event::approach_speed after describe(). Rigid bodies count with their
-/// velocities at the contact point. The rates are those at which the radii grow (length / time).
-double approach_error(const Event& event, double arm);
-double approach_error(const Event& event, double arm, double first_rate, double second_rate);
-double approach_error(const Event& event, const Sphere& first, const Sphere& second);
-/// Returns the arm of the normal of an event.
-double arm_of(const Event& event, const Sphere& first, const Sphere& second);
+/// velocities at the contact point. `rates`: sum of those at which the radii change (length / time).
+double approach_error(const Event& event, double arm, double rates = 0.0);
+
+/// What the contact rule has to know of the bodies of an event, beside what the event says.
+struct ContactTerms {
+  ContactEvents wanted;
+  double arm;           ///< of the normal (approach_error())
+  double rates;         ///< sum of those at which the radii change (length / time)
+  double acceleration;  ///< largest one with which they can be pressed upon each other (length / time^2)
+};
+/// `second` is ignored if the event is about a wall.
+ContactTerms terms_of(const Event& event, const Sphere& first, const Sphere& second);
+
+/// An event, described as its bodies are now.
+struct DescribedEvent {
+  Event event;
+  ContactTerms terms;
+};
 /// Returns a woke event. The body stands at the centre of the sphere.
 Event woke_event(double time, const Sphere& sphere);
 /// Returns a bound_violation event. The sphere's state is the violating report, and `acceleration_limit` that

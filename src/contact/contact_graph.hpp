@@ -118,7 +118,7 @@ class ContactGraph {
   /// reached the limit of contacts at one time, so the caller's responses will not separate them.
   bool is_jammed(const Event& current) const;
   /// Marks the begin of a contact as repeated or jammed, and counts it for later marks. `acceleration`: see
-  /// relative_acceleration().
+  /// ContactTerms.
   void note_contact(Event& begin, double acceleration);
   struct Jam {
     /// True if the two are let through from now on until they have separated.

@@ -49,7 +49,7 @@ class ContactRate {
   struct Begin {
     double time = 0.0;
     double approach_speed = 0.0;  ///< length / time
-    double acceleration = 0.0;    ///< relative_acceleration() of the two
+    double acceleration = 0.0;    ///< ContactTerms::acceleration
   };
   /// Marks for the begin of a contact.
   struct Marks {

@@ -10,16 +10,6 @@ namespace {
 /// at the same instant, so the speed is gone after about 60 of them.
 constexpr double largest_rest_of_approach = 0.5;
 
-/// Recomputes the event from the present states of its bodies.
-void describe_now(Event& event, const Sphere& first, const Sphere& second, const Space& space,
-                  const std::optional<Box>& box) {
-  if (event.wall != Wall::none) {
-    describe(event, first, *box);
-  } else {
-    describe(event, first, second, space);
-  }
-}
-
 /// Returns the threshold that the event crosses. A sensor overlap that may be entered does not exist yet.
 Threshold threshold_of(const ContactGraph& graph, const Event& event, ContactEvents wanted) {
   return is_of_sensor(event.kind) ? Threshold{.within = false, .sensed = true}
@@ -27,6 +17,16 @@ Threshold threshold_of(const ContactGraph& graph, const Event& event, ContactEve
 }
 
 }  // namespace
+
+/// Recomputes what an event says of its bodies, if that is of now.
+void PendingEvents::describe_now(Event& event, const Sphere& first, const Sphere& second, const Space& space,
+                                 const std::optional<Box>& box) {
+  if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return;
+  if (event.wall != Wall::none)
+    describe(event, first, *box);
+  else
+    describe(event, first, second, space);
+}
 
 /// Returns the sensing direction that the sensor_enter of this pair and distance had.
 Senses PendingEvents::senses_at_enter(const ContactGraph& graph, const Event& leave) {
@@ -64,7 +64,9 @@ void PendingEvents::note_response(ContactGraph& graph, const BodyMotion& first, 
   turn(event, first, second);
   const double now = event.approach_speed;
   ContactState state = threshold.state;
-  const double error = approach_error(event, delivered_->arm, first.radius_rate, second.radius_rate);
+  const double rates =
+      std::abs(first.radius_rate) + (event.second != no_body ? std::abs(second.radius_rate) : 0.0);
+  const double error = approach_error(event, delivered_->arm, rates);
   const auto is_approach = [&](double speed) { return graph.rule().is_approach(event.gap, speed, error); };
   const bool passes = is_approach(before) && is_approach(now) && now > largest_rest_of_approach * before;
   state.approach = passes ? ApproachState::reported : ApproachState::watched;
@@ -77,48 +79,44 @@ void PendingEvents::note_response(ContactGraph& graph, const BodyMotion& first, 
   }
 }
 
-void PendingEvents::queue(const Event& event) {
+void PendingEvents::queue(const Event& event, const ContactTerms* terms) {
   // A caller that changes a velocity at a Zeno guard must not get that guard again at the same time, without
   // end.
   if (delivered_guards_.contains(event)) return;
   if (pending_.empty()) are_outdated_ = false;
+  terms_ = pending_.empty() && terms != nullptr ? std::optional(*terms) : std::nullopt;
   pending_.insert(event);
 }
 
 /// Applies the event to the contact graph, as the present states have it. Returns false, and leaves the graph
 /// unchanged, if the event no longer holds.
-bool PendingEvents::take_effect(ContactGraph& graph, Event& event, const Sphere& first, const Sphere& second,
-                                const std::optional<Box>& box) {
+bool PendingEvents::take_effect(ContactGraph& graph, Event& event, const ContactTerms& terms) {
   if (event.kind == EventKind::zeno_guard) delivered_guards_.insert(event);
   if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
-  const bool begins_now = begins(event.kind);
-  if (are_outdated_) describe_now(event, first, second, graph.space(), box);
-  if (!begins_now) {
+  if (!begins(event.kind)) {
     graph.set_touching(event, false);
   } else {
-    const ContactEvents wanted = wanted_of(first, second);
-    const Threshold threshold = threshold_of(graph, event, wanted);
-    const double arm = arm_of(event, first, second);
-    const double error = approach_error(event, arm, first.radius_rate, second.radius_rate);
+    const Threshold threshold = threshold_of(graph, event, terms.wanted);
+    const double error = approach_error(event, terms.arm, terms.rates);
     if (graph.rule().decide(threshold, event.gap - event.distance, event.approach_speed, error) !=
         ContactRule::Change::begin)
       return false;
     if (threshold.sensed) {
       graph.set_touching(event, true);
     } else {
-      event.already_touching = threshold.within && wants_ends(wanted);
-      graph.note_contact(event, event.wall == Wall::none ? relative_acceleration(first, second)
-                                                         : largest_acceleration(first));
+      event.already_touching = threshold.within && wants_ends(terms.wanted);
+      graph.note_contact(event, terms.acceleration);
       ContactState state = threshold.within ? threshold.state : ContactState{};
       const bool approaches = graph.rule().is_approach(event.gap, event.approach_speed, error);
       state.approach = approaches ? ApproachState::reported : ApproachState::watched;
       // The begin itself says that the two overlap.
       state.guard_reported = state.guard_reported || event.gap < -graph.rule().tolerance();
       graph.set_state(event, state);
-      delivered_ = {event, arm};
+      delivered_ = {event, terms.arm};
     }
   }
-  changed_.emplace_back(graph.number_of(first.id), graph.number_of(second.id));
+  const std::uint32_t first = graph.number_of(event.first);
+  changed_.emplace_back(first, event.second == no_body ? first : graph.number_of(event.second));
   return true;
 }
 

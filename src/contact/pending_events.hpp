@@ -28,7 +28,8 @@ class PendingEvents {
   void start() { delivered_guards_.clear(); }
   /// Queues an event, described as its bodies are now, unless it is already queued, or is a Zeno guard that
   /// was delivered at this time.
-  void queue(const Event& event);
+  /// `terms`: those of its bodies now; nullptr if they are to be looked at when it is delivered.
+  void queue(const Event& event, const ContactTerms* terms = nullptr);
   /// A body changes: pending events have to be described anew.
   void outdate() { are_outdated_ = true; }
   /// Queues an event that has already taken effect. It is delivered unchanged, before all events of queue().
@@ -61,7 +62,8 @@ class PendingEvents {
       if (!ends(event)) continue;
       const Sphere first = sphere(graph.number_of(event.first));
       end(graph, event,
-          event.second == no_body ? first.wanted : wanted_of(first, sphere(graph.number_of(event.second))));
+          event.second == no_body ? first.wanted
+                                  : first.wanted | sphere(graph.number_of(event.second)).wanted);
     }
   }
   /// Ends all contacts and overlaps of a body that is about to be removed or disabled.
@@ -87,12 +89,18 @@ class PendingEvents {
     }
     while (!pending_.empty()) {
       event = pending_.take_first();
+      const std::optional<ContactTerms> known = std::exchange(terms_, std::nullopt);
       const bool alone = event->second == no_body;
       if (is_there(event->first) && (alone || is_there(event->second))) {
-        const Sphere first = sphere(graph.number_of(event->first));
         if (event->kind == EventKind::sensor_enter) event->senses = senses_in(*event);
         if (event->kind == EventKind::sensor_leave) event->senses = senses_at_enter(graph, *event);
-        if (take_effect(graph, *event, first, alone ? first : sphere(graph.number_of(event->second)), box)) {
+        const auto terms_now = [&] {
+          const Sphere first = sphere(graph.number_of(event->first));
+          const Sphere second = alone ? first : sphere(graph.number_of(event->second));
+          if (are_outdated_) describe_now(*event, first, second, graph.space(), box);
+          return terms_of(*event, first, second);
+        };
+        if (take_effect(graph, *event, known && !are_outdated_ ? *known : terms_now())) {
           are_outdated_ = true;
           return event;
         }
@@ -127,7 +135,7 @@ class PendingEvents {
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() const { return changed_; }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [pending, ended, zeno_guards, changed, delivered, are_outdated] = self;
+    auto& [pending, terms, ended, zeno_guards, changed, delivered, are_outdated] = self;
     archive(pending, ended, zeno_guards, changed, delivered);
     if constexpr (!std::is_const_v<std::remove_reference_t<decltype(self)>>) are_outdated = true;
   }
@@ -140,7 +148,7 @@ class PendingEvents {
   /// A begin that has been delivered.
   struct Delivered {
     Event event;
-    double arm;  ///< arm_of() when it was described
+    double arm;  ///< of its normal
     static void serialize(auto& self, auto& archive) { archive(self.event, self.arm); }
   };
 
@@ -168,10 +176,12 @@ class PendingEvents {
   static Senses senses_at_enter(const ContactGraph& graph, const Event& leave);
   void end(ContactGraph& graph, const Event& contact, ContactEvents wanted);
   void note_response(ContactGraph& graph, const BodyMotion& first, const BodyMotion& second);
-  bool take_effect(ContactGraph& graph, Event& event, const Sphere& first, const Sphere& second,
-                   const std::optional<Box>& box);
+  static void describe_now(Event& event, const Sphere& first, const Sphere& second, const Space& space,
+                           const std::optional<Box>& box);
+  bool take_effect(ContactGraph& graph, Event& event, const ContactTerms& terms);
 
   EventSet pending_;
+  std::optional<ContactTerms> terms_;       ///< of the only pending event, if they are known
   std::set<Event, DeliveredBefore> ended_;  ///< ended by the caller's changes; also bodies that have woken
   std::set<Event, DeliveredBefore> delivered_guards_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;

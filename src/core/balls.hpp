@@ -143,7 +143,7 @@ class Balls {
            ball.time <= now_ && ball.radius >= 0.0 && std::isfinite(ball.radius) &&
            ball.acceleration_limit >= 0.0 && std::isfinite(ball.acceleration_limit) &&
            is_ordinary(ball.centre[0]) && is_ordinary(ball.centre[1]) && is_ordinary(ball.centre[2]) &&
-           is_ordinary(ball.region) && ball.due >= now_ && ball.second >= ball.due && ball.own >= ball.due;
+           is_ordinary(ball.region) && ball.due >= now_ && ball.second >= ball.due && ball.own >= ball.second;
   }
   bool has_valid_drifts() const { return drifts_.empty() || drifts_.size() == balls_.size(); }
 

@@ -38,7 +38,11 @@ class World::Engine {
   double time() const { return main_.time(); }
   CallState activity() const;
 
-  WorldEditor changes() { return {state_, main_}; }
+  /// Events that wait are described anew after a change.
+  WorldEditor changes() {
+    main_.events().outdate();
+    return {state_, main_};
+  }
 
   // State at the current time.
   const Bodies& bodies() const { return state_.bodies; }

@@ -26,12 +26,17 @@ Result<void> EventProcessor::gather(double until) {
   return {};
 }
 
-Event EventProcessor::contact(EventKind kind, std::uint32_t a, std::uint32_t b) const {
-  return contact_event(kind, time_, sphere(a), sphere(b), bodies().space());
+/// Returns an event of two bodies, or of a body and a wall, of a kind that is still to be chosen.
+DescribedEvent EventProcessor::describe_pair(std::uint32_t a, std::uint32_t b) const {
+  const Sphere first = sphere(a), second = sphere(b);
+  const Event event = contact_event(EventKind::zeno_guard, time_, first, second, bodies().space());
+  return {event, terms_of(event, first, second)};
 }
 
-Event EventProcessor::wall_contact(EventKind kind, std::uint32_t number, Wall wall) const {
-  return wall_event(kind, time_, sphere(number), *bodies().walls(), wall);
+DescribedEvent EventProcessor::describe_wall(std::uint32_t number, Wall wall) const {
+  const Sphere body = sphere(number);
+  const Event event = wall_event(EventKind::zeno_guard, time_, body, *bodies().walls(), wall);
+  return {event, terms_of(event, body, body)};
 }
 
 /// Returns which of the two bodies senses the other at the distance of this event now.
@@ -197,7 +202,8 @@ void EventProcessor::turn_back(const Event& crossing) {
   Event now = crossing;
   describe(now, first, second, bodies().space());
   const double onward = is_within ? now.approach_speed : -now.approach_speed;
-  if (onward > approach_error(now, first, second)) return;
+  const ContactTerms terms = terms_of(now, first, second);
+  if (onward > approach_error(now, terms.arm, terms.rates)) return;
   contacts().turn_back(crossing);
   events_.changed().emplace_back(a, b);
 }

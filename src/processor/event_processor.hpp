@@ -191,17 +191,17 @@ class alignas(128) EventProcessor final : public core::Host {
   std::optional<double> decide_pair(std::uint32_t a, std::uint32_t b);
   std::optional<double> decide_walls(std::uint32_t number);
   bool note_return(const Threshold& turned, std::uint32_t a, std::uint32_t b);
-  template <class Partner, class EventNow>
+  template <class Partner, class Describe>
   std::optional<double> decide(const ContactPredictor<Partner>& predictor, const Threshold& threshold,
-                               const RelativeLimits& limits, Counters& work, EventNow event_now);
+                               const RelativeLimits& limits, Counters& work, Describe describe);
   template <class Partner>
   double defer(const ContactPredictor<Partner>& predictor, const Threshold& threshold, const Event& current,
                const RelativeLimits& limits, Counters& work);
   void note_link(const Event& current, const Threshold& threshold);
   Result<void> probe_stale_of(std::uint32_t a, std::uint32_t b);
   Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
-  Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
-  Event wall_contact(EventKind kind, std::uint32_t number, Wall wall) const;
+  DescribedEvent describe_pair(std::uint32_t a, std::uint32_t b) const;
+  DescribedEvent describe_wall(std::uint32_t number, Wall wall) const;
   Senses senses_in(const Event& event) const;
 
   WorldState* state_;

@@ -74,8 +74,7 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
       if (threshold.is_turned) threshold.is_turned = !note_return(threshold, a, b);
       const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {until, end},
                                        sum.excess_growth);
-      const auto known =
-          decide(predictor, threshold, sum, work, [&] { return contact(EventKind::zeno_guard, a, b); });
+      const auto known = decide(predictor, threshold, sum, work, [&] { return describe_pair(a, b); });
       next = next && known ? std::optional(std::min(*next, *known)) : std::nullopt;
     });
   });
@@ -85,21 +84,21 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
 
 /// Returns true, and forgets that the two have been turned back, if they are back where they came from.
 bool EventProcessor::note_return(const Threshold& turned, std::uint32_t a, std::uint32_t b) {
-  const double gap = contact(EventKind::zeno_guard, a, b).gap - turned.distance;
+  const double gap = describe_pair(a, b).event.gap - turned.distance;
   if (!contacts().rule().is_back(turned, gap)) return false;
   contacts().pairs().set_turned(a, b, std::nullopt);
   return true;
 }
 
 /// Applies the contact rule to fresh reports. Queues the events that result. Returns the time before which
-/// the threshold cannot be crossed, or nullopt if a begin or an end was queued. `event_now` returns an event
-/// that describes the two now. `work`: where it is counted.
-template <class Partner, class EventNow>
+/// the threshold cannot be crossed, or nullopt if a begin or an end was queued. `describe` returns an event
+/// of the two. `work`: where it is counted.
+template <class Partner, class Describe>
 std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& predictor,
                                              const Threshold& threshold, const RelativeLimits& limits,
-                                             Counters& work, EventNow event_now) {
+                                             Counters& work, Describe describe) {
   if (const auto next_check = predictor.next_check_if_apart()) return next_check;
-  Event current = event_now();
+  auto [current, terms] = describe();
   ContactDecision decision = predictor.decide(current, limits);
   // A begin that has an end is told before it: two that have been let through would end what never began.
   const bool may_wait = threshold.within || !wants_ends(threshold.wanted);
@@ -109,7 +108,7 @@ std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& pr
   if (decision.is_event()) {
     current.kind = kind_of(decision.change, threshold.sensed, current.wall);
     current.distance = threshold.distance;
-    events_.queue(current);
+    events_.queue(current, &terms);
     return std::nullopt;
   }
   if (decision.change == ContactRule::Change::release) contacts().set_touching(current, false);
@@ -182,7 +181,7 @@ std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
       const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {until, end},
                                        limits.excess_growth);
       return decide(predictor, threshold, limits, counters_of(number),
-                    [&] { return wall_contact(EventKind::zeno_guard, number, wall); });
+                    [&] { return describe_wall(number, wall); });
     });
     if (next) first = std::min(first, *next);
   }

@@ -22,9 +22,8 @@ Space::Space(const WorldDefinition& definition) : flat_(definition.dimensions ==
   }
 }
 
-Space::Wrapped Space::wrapped(const Vec3& point) const {
+Space::Wrapped Space::wrapped_from_outside(const Vec3& point) const {
   Wrapped result{point, {}};
-  if (!repeats_) return result;
   const Vec3 way = point - lower_;
   for (int axis = 0; axis < 3; ++axis) {
     double& images = result.images[axis];

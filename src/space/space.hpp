@@ -68,7 +68,9 @@ class Space {
     Vec3 position;
     Vec3 images;
   };
-  Wrapped wrapped(const Vec3& point) const;
+  Wrapped wrapped(const Vec3& point) const {
+    return is_primary(point) ? Wrapped{point, {}} : wrapped_from_outside(point);
+  }
 
   /// Returns the part of a box that lies in this space.
   Box within(Box box) const {
@@ -105,6 +107,13 @@ class Space {
     std::array<int, 3> count{1, 1, 1};
   };
 
+  /// True if the point lies in the primary box, as far as space repeats.
+  bool is_primary(const Vec3& point) const {
+    const auto on_axis = [&](int axis) { return lower_[axis] <= point[axis] && point[axis] < upper_[axis]; };
+    return !repeats_ ||
+           ((on_axis(0) || !repeats(0)) && (on_axis(1) || !repeats(1)) && (on_axis(2) || !repeats(2)));
+  }
+  [[gnu::cold]] Wrapped wrapped_from_outside(const Vec3& point) const;
   Images images_near(const Box& box, double largest_extent) const;
   static Box moved(const Box& box, const Vec3& shift);
 

@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "bodies/validation.hpp"
 #include "engine/engine.hpp"
 #include "kinesphere/world.hpp"
 
@@ -44,6 +45,10 @@ class World::Preconditions {
     if (!is_known(body)) return false;
     const Body& record = engine_->bodies()[body.index];
     return record.enabled && !record.is_static();
+  }
+  /// Returns true if the body may turn to this velocity, as it nearly always may. Precondition: exists().
+  bool may_have(BodyId body, const Vec3& velocity) const {
+    return may_turn(body) && is_valid_velocity(velocity, definition());
   }
   /// The world is idle, and the body is known.
   Result<void> changeable(BodyId body) const;

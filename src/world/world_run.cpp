@@ -207,7 +207,7 @@ class World::Run {
 
   Result<void> check_velocity_change(const Event& event, BodyId body, const std::optional<Vec3>& velocity,
                                      std::string_view argument) const {
-    if (!velocity) return {};
+    if (!velocity || Preconditions(world_, "run").may_have(body, *velocity)) return {};
     return check_argument(event, argument, [&](std::string_view call) {
       auto valid = Preconditions(world_, call).can_turn(body);
       return valid ? check_velocity(*velocity, body, world_.definition(), call) : valid;

@@ -1,5 +1,6 @@
 #include "motion/checks.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "input/input_check.hpp"
@@ -18,6 +19,7 @@ std::optional<Error> wrong_body(std::string_view call, const Motion& motion, std
 
 std::optional<Error> wrong_time(std::string_view call, BodyId body, std::string_view argument, double time,
                                 const KnownTimes& known) {
+  if (known.from <= time && time <= known.to && std::isfinite(time)) return std::nullopt;
   const Subject subject{argument, body};
   return InputCheck(call)
       .finite(subject, time)
@@ -36,6 +38,8 @@ std::optional<Error> wrong_state(std::string_view call, BodyId body, const State
 }
 
 std::optional<Error> wrong_origin(std::string_view call, BodyId body, const MotionOrigin& origin) {
+  if (std::isfinite(origin.time) && is_finite(origin.state.position) && is_finite(origin.state.velocity))
+    return std::nullopt;
   return InputCheck(call)
       .finite({"origin", body, "time"}, origin.time)
       .finite({"origin", body, "position"}, origin.state.position)
