@@ -191,7 +191,7 @@ void RegionCells::start_search(const Ball& ball, float reach, RegionSearch& sear
     if (!(cells > 0.0)) continue;
     if (cells > static_cast<double>(blocks_.size())) return list_all(search);
     search.may_repeat = search.may_repeat || level.shares;
-    search.reserve(static_cast<std::size_t>(cells));
+    search.reserve(static_cast<std::size_t>(cells) + 1);
     list_cells(level, near, search);
   }
   follow_chains(search);
@@ -219,36 +219,50 @@ std::array<RegionCells::Range, 3> RegionCells::cells_near(const Level& level,
   return {on(level.axes[0], query.x), on(level.axes[1], query.y), on(level.axes[2], query.z)};
 }
 
+/// Lists up to `most_steps` cells on an axis from `first` on: where their chains are, seen from that of cell
+/// 0, and the square of how far the cells are from `at`, at least, with room for rounding.
+std::span<const RegionCells::Step> RegionCells::steps_on(const Axis& axis, const Range& range,
+                                                         std::int64_t first, float at, double far,
+                                                         std::array<Step, most_steps>& steps) {
+  const bool is_everywhere = axis.count > 0 && range.count() >= static_cast<double>(axis.count);
+  const double margin = 0x1p-40 * (std::abs(double{at}) + far + axis.width);
+  std::size_t count = 0;
+  for (std::int64_t cell = first; cell <= range.last && count < most_steps; ++cell) {
+    const double lower = static_cast<double>(cell) * axis.width;
+    const double gap = std::max(lower - double{at}, double{at} - (lower + axis.width));
+    const double least = is_everywhere ? 0.0 : std::max(gap - margin, 0.0);
+    steps[count++] = {static_cast<std::uint32_t>(wrapped(cell, axis.count)) * axis.stride, least * least};
+  }
+  return std::span(steps).first(count);
+}
+
 /// Appends the first blocks of cells that may have a region within reach.
 void RegionCells::list_cells(const Level& level, const std::array<Range, 3>& near,
                              RegionSearch& search) const {
-  const RegionQuery& query = search.query;
   const auto& [xs, ys, zs] = near;
-  const Axis &on_x = level.axes[0], &on_y = level.axes[1], &on_z = level.axes[2];
+  const auto& [on_x, on_y, on_z] = level.axes;
+  const RegionQuery& query = search.query;
   const double far = static_cast<double>(query.reach) + static_cast<double>(level.largest_reach);
-  // How far the cells of a row are from the centre, at least, with room for rounding.
-  const auto away = [far](const Axis& axis, const Range& range, std::int64_t cell, float at) {
-    if (axis.count > 0 && range.count() >= static_cast<double>(axis.count)) return 0.0;
-    const double lower = static_cast<double>(cell) * axis.width;
-    const double gap = std::max(lower - double{at}, double{at} - (lower + axis.width));
-    return std::max(gap - 0x1p-40 * (std::abs(double{at}) + far + axis.width), 0.0);
-  };
+  std::array<Step, most_steps> of_x, of_y, of_z;
   std::uint32_t* place = search.places.data() + search.count;
-  for (std::int64_t z = zs.first; z <= zs.last; ++z) {
-    const double away_on_z = away(on_z, zs, z, query.z);
-    const std::uint32_t layer =
-        level.origin + static_cast<std::uint32_t>(wrapped(z, on_z.count)) * on_z.stride;
-    for (std::int64_t y = ys.first; y <= ys.last; ++y) {
-      const double away_on_y = away(on_y, ys, y, query.y);
-      if (away_on_y * away_on_y + away_on_z * away_on_z > far * far) continue;
-      const std::uint32_t row = layer + static_cast<std::uint32_t>(wrapped(y, on_y.count)) * on_y.stride;
-      for (std::int64_t x = xs.first; x <= xs.last; ++x) {
-        const std::uint32_t chain = within_table(row + static_cast<std::uint32_t>(wrapped(x, on_x.count)));
-        const char* const block = reinterpret_cast<const char*>(&blocks_[chain]);
-        prefetch_line(block);
-        prefetch_line(block + 64);
-        *place++ = chain;
-      }
+  const auto list = [&](std::span<const Step> row, std::uint32_t chain, double left) {
+    for (const Step& step : row) {
+      // Without a branch, which would be mispredicted.
+      *place = within_table(chain + step.chains);
+      const char* const block = reinterpret_cast<const char*>(&blocks_[*place]);
+      prefetch_line(block);
+      prefetch_line(block + 64);
+      place += static_cast<std::ptrdiff_t>(step.away <= left);
+    }
+  };
+  for (std::int64_t x = xs.first; x <= xs.last; x += most_steps) {
+    const auto row = steps_on(on_x, xs, x, query.x, far, of_x);
+    for (std::int64_t y = ys.first; y <= ys.last; y += most_steps) {
+      const auto rows = steps_on(on_y, ys, y, query.y, far, of_y);
+      for (std::int64_t z = zs.first; z <= zs.last; z += most_steps)
+        for (const Step& layer : steps_on(on_z, zs, z, query.z, far, of_z))
+          for (const Step& step : rows)
+            list(row, level.origin + layer.chains + step.chains, far * far - layer.away - step.away);
     }
   }
   search.count = static_cast<std::size_t>(place - search.places.data());

@@ -135,6 +135,14 @@ class RegionCells {
   void put(Balls& balls, std::uint32_t ball, float reach, std::uint32_t place);
   void add_blocks(std::size_t count);
   std::array<Range, 3> cells_near(const Level& level, const RegionQuery& query) const;
+  /// A cell on an axis, as a search sees it.
+  struct Step {
+    std::uint32_t chains;
+    double away;
+  };
+  static constexpr std::size_t most_steps = 16;
+  static std::span<const Step> steps_on(const Axis& axis, const Range& range, std::int64_t first, float at,
+                                        double far, std::array<Step, most_steps>& steps);
   void list_cells(const Level& level, const std::array<Range, 3>& near, RegionSearch& search) const;
   void list_all(RegionSearch& search) const;
   void follow_chains(RegionSearch& search) const;
