@@ -153,6 +153,11 @@ beyond = [
         "Not asked for so far; `ks_world_overlapping_sphere` says whether a place is free.",
     ),
     Capability(
+        "pairs by distance",
+        {"C++": "radial_distribution", "Python": "radial_distribution"},
+        "It is for fluids and packings, whose programs are in C++ and Python.",
+    ),
+    Capability(
         "a search for defects",
         {"C++": "audit", "Python": "audit", "JavaScript": "audit"},
         "It is for bugs of the library, which a recording of the world shows too.",

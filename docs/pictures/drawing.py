@@ -57,6 +57,12 @@ class Drawing:
         path = "".join(f"M{number(x)} {number(y)}h0" for x, y in places)
         self.add("path", d=path, class_=f"{ink}-line", style=f"stroke-width:{number(2 * radius)}", **more)
 
+    def tails(self, places, ways, ink):
+        """A line from each place, by a way of its own."""
+        pairs = zip(places, ways, strict=True)
+        path = "".join(f"M{number(x)} {number(y)}l{number(u)} {number(v)}" for (x, y), (u, v) in pairs)
+        self.add("path", d=path, class_=f"{ink}-line", style="stroke-width:2")
+
     def line(self, x1, y1, x2, y2, class_, **more):
         self.add("line", x1=float(x1), y1=float(y1), x2=float(x2), y2=float(y2), class_=class_, **more)
 

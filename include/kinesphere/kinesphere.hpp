@@ -30,6 +30,7 @@
 #include "kinesphere/placement.hpp"
 #include "kinesphere/probe.hpp"
 #include "kinesphere/queries.hpp"
+#include "kinesphere/radial_distribution.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"

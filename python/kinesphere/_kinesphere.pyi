@@ -1061,6 +1061,9 @@ def place_spheres(
     seed: int = 1,
     dimensions: int = 3,
 ) -> Doubles: ...
+def radial_distribution(
+    centres: Array, box: BoxLike, range: float, bins: int, *, dimensions: int = 3
+) -> Doubles: ...
 def _scene(fields: dict[str, Any]) -> Scene: ...
 
 class Scene:

@@ -1,10 +1,12 @@
-// Starts of one's own: kinesphere.place_spheres().
+// Places of spheres: kinesphere.place_spheres() and radial_distribution().
 #include "kinesphere/placement.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "errors.hpp"
 #include "exchange.hpp"
+#include "kinesphere/radial_distribution.hpp"
 #include "shapes.hpp"
 #include "world.hpp"
 
@@ -39,6 +41,23 @@ py::object placed(const py::object& given, const py::object& given_box, const py
   return array.take();
 }
 
+py::object distribution(const py::object& given, const py::object& given_box, double range, std::size_t bins,
+                        int dimensions) {
+  const bool plane = dimensions == 2;
+  const std::vector<Vec3> centres = vectors_of(given, {"radial_distribution", "centres"}, plane);
+  const auto box = box_of(given_box, {"radial_distribution", "box"}, plane);
+  if (!box) refuse({"radial_distribution", "box"}, "must be a Box or two corners", "is None");
+  const std::vector<double> found =
+      [&] {
+        const py::gil_scoped_release released;
+        return radial_distribution(centres, *box, range, bins, dimensions);
+      }()
+          .value();
+  NewArray array = new_doubles({found.size()});
+  std::copy(found.begin(), found.end(), array.data<double>());
+  return array.take();
+}
+
 }  // namespace
 
 void bind_placement(py::module_& module) {
@@ -55,6 +74,13 @@ between two spheres, and between a sphere and a wall. dimensions: 2 for discs in
 Reaches 0.6 with spheres of one size, 0.8 with discs and more with mixtures. The places are random, but not
 in equilibrium. A seed gives the same bits on every machine. Raises InvalidValue if no arrangement without
 overlap was found. Takes a microsecond for each sphere below 0.28, 10 at 0.49, 50 at 0.6.)");
+  module.def("radial_distribution", distribution, py::arg("centres"), py::arg("box"), py::arg("range"),
+             py::arg("bins"), py::kw_only(), py::arg("dimensions") = 3,
+             R"(The radial distribution function g of points in a box that repeats on all axes: shape (bins,).
+
+The number of pairs at a distance over that of as many points at random places, in bins of equal width from 0
+to range (length), which is at most half of a side of the box. centres: shape (n, 3), or (n, 2) in the plane,
+in any image of the box. dimensions: 2 for points in the plane.)");
 }
 
 }  // namespace kinesphere::python

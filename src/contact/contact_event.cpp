@@ -222,16 +222,18 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
   event.approach_speed = approach_speed(event, sphere.radius_rate);
 }
 
-void turn(Event& event, const BodyMotion& first, const BodyMotion& second) {
+double turn(Event& event, const BodyMotion& first, const BodyMotion& second) {
   event.first_state.velocity = first.velocity;
   event.first_angular_velocity = first.spin;
-  double rates = first.radius_rate;
+  double growth = first.radius_rate, rates = std::abs(first.radius_rate);
   if (event.second != no_body) {
     event.second_state.velocity = second.velocity;
     event.second_angular_velocity = second.spin;
-    rates += second.radius_rate;
+    growth += second.radius_rate;
+    rates += std::abs(second.radius_rate);
   }
-  event.approach_speed = approach_speed(event, rates);
+  event.approach_speed = approach_speed(event, growth);
+  return rates;
 }
 
 double approach_error(const State& first, const State& second, double arm) {

@@ -57,8 +57,9 @@ Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& b
 void describe(Event& event, const Sphere& first, const Sphere& second, const Space& space);
 void describe(Event& event, const Sphere& sphere, const Box& box);
 /// Sets what an event says of velocities to those that its bodies have now, where they were described at this
-/// time. `second` is ignored if the event is about a wall.
-void turn(Event& event, const BodyMotion& first, const BodyMotion& second);
+/// time. `second` is ignored if the event is about a wall. Returns the sum of the rates at which the radii
+/// change (length / time).
+double turn(Event& event, const BodyMotion& first, const BodyMotion& second);
 /// Bounds the rounding error in the approach speed of two bodies with these states (length / time).
 /// `arm` is the length of the vector along the normal: from centre to centre, or from a centre to the nearest
 /// point of a shape; +infinity where the normal is that of a wall or a half-space. The bound covers rounding

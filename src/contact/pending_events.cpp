@@ -61,11 +61,9 @@ void PendingEvents::note_response(ContactGraph& graph, const BodyMotion& first, 
   const Threshold threshold = graph.threshold_of(event, wanted);
   if (!threshold.within || threshold.state.approach == ApproachState::ignored) return;
   const double before = event.approach_speed;
-  turn(event, first, second);
+  const double rates = turn(event, first, second);
   const double now = event.approach_speed;
   ContactState state = threshold.state;
-  const double rates =
-      std::abs(first.radius_rate) + (event.second != no_body ? std::abs(second.radius_rate) : 0.0);
   const double error = approach_error(event, delivered_->arm, rates);
   const auto is_approach = [&](double speed) { return graph.rule().is_approach(event.gap, speed, error); };
   const bool passes = is_approach(before) && is_approach(now) && now > largest_rest_of_approach * before;

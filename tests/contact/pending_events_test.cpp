@@ -84,6 +84,23 @@ TEST_F(PendingEventsTest, BeginsAreJudgedAgainAndDroppedIfTheyDoNotHold) {
   EXPECT_FALSE(graph.touch(0, 2));
 }
 
+TEST_F(PendingEventsTest, AreJudgedByWhatIsKnownOfTheirOwnBodies) {
+  // With such rates no approach is certain.
+  const ContactTerms unlikely{ContactEvents::all, 2.0, 1e20, 0.0};
+  const auto approach_of = [&](std::uint32_t a, std::uint32_t b) {
+    const Event begin = pair(EventKind::contact_begin, a, b);
+    return graph.threshold_of(begin, ContactEvents::all).state.approach;
+  };
+  events.queue(pair(EventKind::contact_begin, 1, 2), &unlikely);
+  ASSERT_TRUE(pop());
+  EXPECT_EQ(approach_of(1, 2), ApproachState::watched);
+  graph.set_touching(pair(EventKind::contact_begin, 1, 2), false);
+  events.queue(pair(EventKind::contact_begin, 1, 2), &unlikely);
+  events.queue(pair(EventKind::contact_begin, 0, 1));
+  ASSERT_TRUE(pop());
+  EXPECT_EQ(approach_of(0, 1), ApproachState::reported) << "of two that wait, the bodies are looked at";
+}
+
 TEST_F(PendingEventsTest, SensorEventsSayWhoSenses) {
   events.queue(pair(EventKind::sensor_enter, 0, 2, 4.0));
   const auto enter = pop();

@@ -96,6 +96,28 @@ TEST(GlitchingSource, IsRefusedWhileAnAnswerTurnsABody) {
   }
 }
 
+TEST(TwoPairs, SinkMayMoveWhatWasAskedFor) {
+  TwoPairs balls;
+  const auto respond = [](const Event& event) -> Response {
+    if (event.first.index == 0) return {.stop = true};
+    return {Vec3{0, 1, 0}, Vec3{0, -1, 0}};
+  };
+  // The run has asked for the states of the other two at this time, for their contact. They touch at another
+  // place then.
+  const State above{{3.5, 11, 0}, {0, -1, 0}};
+  const auto sink = [&](const Event& event) {
+    balls.reported.push_back(event);
+    if (event.first.index != 0) return;
+    balls.world.teleport(balls.world.bodies()[2], above).value();
+    balls.departures[2] = {event.time, above};
+  };
+  balls.world.run(3.0, balls, respond, sink).value();
+  ASSERT_EQ(balls.reported.size(), 2u);
+  EXPECT_EQ(balls.departures[2].time, balls.reported[1].time);
+  EXPECT_EQ(balls.departures[2].state.position, above.position);
+  EXPECT_TRUE(is_clean(balls.world));
+}
+
 /// Bodies that bounce in a flat box.
 struct Bouncing : BouncingWorld<RandomForces> {
   Bouncing()

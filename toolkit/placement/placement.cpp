@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "input/input_check.hpp"
-#include "kinesphere/limits.hpp"
 #include "kinesphere/random.hpp"
 #include "placement/relaxation.hpp"
 #include "placement/sphere_grid.hpp"
@@ -20,9 +19,6 @@ namespace {
 constexpr std::uint64_t most_tries = 200000;
 constexpr std::uint64_t tries_each = 200;
 
-/// Squares of lengths up to this do not overflow.
-constexpr double largest_coordinate = limits::largest_length * limits::largest_contact_tolerance;
-
 Result<void> check_placement(std::span<const double> radii, const SphereRoom& room,
                              const PlacementOptions& options) {
   InputCheck check("place_spheres");
@@ -31,8 +27,8 @@ Result<void> check_placement(std::span<const double> radii, const SphereRoom& ro
       .require(dimensions == 2 || dimensions == 3, ErrorCode::out_of_range, {"dimensions"}, "must be 2 or 3",
                static_cast<double>(dimensions))
       .box({"box"}, room.box)
-      .within({"box"}, room.box.lower, largest_coordinate)
-      .within({"box"}, room.box.upper, largest_coordinate)
+      .within({"box"}, room.box.lower, largest_of_room)
+      .within({"box"}, room.box.upper, largest_of_room)
       .require(dimensions == 3 || !options.periodic.z, ErrorCode::out_of_range, {"periodic"},
                "must be x, y or both in two dimensions, where there is no z", std::string_view("z, too"))
       .require(options.packing >= 0.0 && options.packing < 1.0, ErrorCode::out_of_range, {"packing"},

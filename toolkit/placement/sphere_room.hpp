@@ -6,12 +6,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "kinesphere/limits.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/vec3.hpp"
 #include "kinesphere/world_definition.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
+
+/// The largest coordinate of a room (length): squares do not overflow.
+inline constexpr double largest_of_room = limits::largest_length * limits::largest_contact_tolerance;
 
 /// Spheres of given radii in a box with walls, or without them on periodic axes.
 struct SphereRoom {
