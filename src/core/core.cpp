@@ -84,18 +84,22 @@ void Core::set_bound(std::uint32_t number, const Bound& bound) {
 void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
   settling_.assign(changed.begin(), changed.end());
   place_arrivals(changed, host);
+  const bool are_many = is_batch(changed);
+  if (are_many) set_own_of_many(changed, host);
   for (const std::uint32_t number : changed) {
-    set_own(number, stays(number), host);
+    if (!are_many) set_own(number, stays(number), host);
     // It may be elsewhere. Others find it by its safe region.
     if (balls_[number].is(Ball::at_wall) || balls_[number].own > balls_.time()) continue;
     move_region(number, host);
   }
-  for (const std::uint32_t number : settling_)
-    if (!balls_[number].is(Ball::passive)) note_change(number, host);
+  note_changes(settling_, host);
   // For many more balls than before, the queue is made anew.
   const bool are_many_more = balls_.size() > 2 * queued_for_;
   if (are_many_more) queue_.forget();
-  for (const std::uint32_t number : settling_) schedule(number, false, host);
+  if (is_batch(settling_))
+    schedule_many(settling_, host);
+  else
+    for (const std::uint32_t number : settling_) schedule(number, false, host);
   if (!are_many_more) return;
   queue_.refill(balls_.all(), balls_.time());
   queued_for_ = balls_.size();

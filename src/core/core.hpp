@@ -9,8 +9,9 @@
 //      the two never have to do with each other (Host::keep_partners()). A ball that never moves, a passive
 //      one, has no list: it is in those of others.
 //   D  Of two neighbours, the one whose velocity or safe region has changed last looks out for the other: it
-//      has computed Ball::due since, and the two do not touch before it. No ball is due after its own time.
-//      A ball in exact flight that stays in its safe region for longer than it knew has changed, too.
+//      has computed Ball::due since, and the two do not touch before it. Of two that have changed together,
+//      it is the one with the higher number. No ball is due after its own time. A ball in exact flight that
+//      stays in its safe region for longer than it knew has changed, too.
 //
 // By H, two balls that touch are in safe regions within reach of each other, or one of the two is due. By N
 // they are neighbours then, and by D one of the two is due no later than they touch.
@@ -193,13 +194,27 @@ class Core {
   double holds_until(std::uint32_t number, std::uint32_t other) const;
   void prefetch() const;
 
+  // batch.cpp
+  bool is_batch(std::span<const std::uint32_t> changed) const;
+  void set_own_of_many(std::span<const std::uint32_t> changed, Host& host);
+  void note_changes(std::span<const std::uint32_t> changed, Host& host);
+  void schedule_many(std::span<const std::uint32_t> changed, Host& host);
+  void look_out(std::span<const std::uint32_t> some, Host& host);
+
   // scan.cpp
   void note_change(std::uint32_t number, Host& host);
   void schedule(std::uint32_t number, bool is_last, Host& host);
+  void find_due(std::uint32_t number, bool is_last, Host& host);
+  /// Returns true if of two neighbours the first one looks out for the other: it has changed last.
+  bool looks_out_for(std::uint32_t number, std::uint32_t other) const {
+    const std::uint64_t own = changes_[number], change = changes_[other];
+    return change < own || (change == own && other < number);
+  }
   std::span<const std::uint32_t> looked_out_for(std::uint32_t number,
                                                 std::span<const std::uint32_t> neighbours,
                                                 std::span<std::uint32_t> room) const;
   void consider(Ball& ball, std::uint32_t other, double time);
+  PairQuery pair_query() const;
   std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours, double duration,
                            std::span<double, most_lanes> apart) const;
   double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const;
@@ -262,7 +277,8 @@ class Core {
   NeighbourLists lists_;
   RegionCells cells_;
   DueQueue queue_;
-  /// By number: of two neighbours, the one that has changed last has the larger value. 0 for passive ones.
+  /// By number: of two neighbours, the one that has changed last has the larger value; those that have
+  /// changed together may have the same one. 0 for passive ones.
   std::vector<std::uint64_t> changes_;
   Ghosts* ghosts_ = nullptr;    ///< nullptr where each ball is the world's own
   double first_radius_ = 0.0;   ///< of the first safe region of a ball that arrives alone (length)
@@ -272,7 +288,9 @@ class Core {
   std::size_t queued_for_ = 0;  ///< how many numbers there were when the queue was filled
   // Members only to reuse their memory.
   RegionSearch search_;
-  std::vector<std::uint32_t> gone_, new_, settling_;
+  std::vector<std::uint32_t> gone_, new_, settling_, undecided_;
+  std::vector<std::uint32_t> first_, second_;
+  std::vector<double> apart_;
 };
 
 }  // namespace kinesphere::core

@@ -24,8 +24,14 @@ void Core::note_change(std::uint32_t number, Host& host) {
 /// it looks out for, if that is earlier. `is_last`: it has changed last of all of them, so it looks out for
 /// all.
 void Core::schedule(std::uint32_t number, bool is_last, Host& host) {
+  if (balls_[number].is(Ball::passive)) return;
+  find_due(number, is_last, host);
+  queue_.push(balls_.all(), number);
+  note_course(number);
+}
+
+void Core::find_due(std::uint32_t number, bool is_last, Host& host) {
   Ball& ball = balls_[number];
-  if (ball.is(Ball::passive)) return;
   if (ball.scans < 255) ++ball.scans;
   ball.about = none;
   ball.due = ball.second = ball.own;
@@ -55,12 +61,10 @@ void Core::schedule(std::uint32_t number, bool is_last, Host& host) {
     }
   }
   for (const std::uint32_t other : linked) {
-    if (changes_[other] > changes_[number]) continue;
+    if (!looks_out_for(number, other)) continue;
     ++work.certificates;
     consider(ball, other, std::min(host.unchanged_until(number, other), holds_until(number, other)));
   }
-  queue_.push(balls_.all(), number);
-  note_course(number);
 }
 
 /// Computes when a ball is due that has a later own time than before.
@@ -77,16 +81,14 @@ double Core::holds_until(std::uint32_t number, std::uint32_t other) const {
   return balls_.is_exact(number) && balls_.is_exact(other) ? infinity : balls_[other].own;
 }
 
-/// Returns those of some neighbours that a ball looks out for, as they have not changed since it did. The
-/// others look out for it. There has to be room for all of them.
+/// Returns those of some neighbours that a ball looks out for. There has to be room for all of them.
 std::span<const std::uint32_t> Core::looked_out_for(std::uint32_t number,
                                                     std::span<const std::uint32_t> neighbours,
                                                     std::span<std::uint32_t> room) const {
-  const std::uint64_t change = changes_[number];
   std::size_t count = 0;
   for (const std::uint32_t neighbour : neighbours) {
     room[count] = neighbour;
-    count += static_cast<std::size_t>(changes_[neighbour] <= change);
+    count += static_cast<std::size_t>(looks_out_for(number, neighbour));
   }
   return room.first(count);
 }
@@ -109,24 +111,22 @@ void Core::consider(Ball& ball, std::uint32_t other, double time) {
   }
 }
 
+/// What concerns all pairs now.
+PairQuery Core::pair_query() const { return balls_.pair_query(margin_, tolerance_ - margin_); }
+
 /// Returns a bit for each of some neighbours that may be met within this time from now, and how long each of
 /// these is certainly not met (may_meet() in near_lanes.hpp).
 std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
                                double duration, std::span<double, most_lanes> apart) const {
   const BoundAt own = balls_.bound_now(number);
-  const NearQuery query{.now = balls_.time(),
+  const NearQuery query{.pairs = pair_query(),
                         .duration = duration,
                         .position = own.centre,
                         .velocity = own.velocity,
                         .radius = own.radius + margin_,
-                        .margin = margin_,
-                        .near = tolerance_ - margin_,
                         .speed = own.speed,
                         .growth = own.growth,
-                        .plan = own.acceleration,
-                        .grows = balls_.any_grows(),
-                        .drifts = balls_.drifts(),
-                        .periods = &balls_.periods()};
+                        .plan = own.acceleration};
   return may_meet(balls_.all().data(), neighbours.data(), neighbours.size(), query, apart.data());
 }
 

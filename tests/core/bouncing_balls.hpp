@@ -136,6 +136,17 @@ class BouncingBalls final : core::Host {
     core_.set_bound(number, bound(number));
     note_change(number);
   }
+  /// From now on the ball moves so. Its next report lies anywhere within its errors.
+  void turn(std::uint32_t number, const Vec3& velocity) {
+    truth.set_velocity(number, core_.time(), velocity);
+    Bound changed = bound(number);
+    const State now = report_of(number, core_.time());
+    const Vec3 expected = core_.balls().position(number);
+    changed.position = expected + core_.balls().nearest(now.position - expected);
+    changed.velocity = now.velocity;
+    core_.set_bound(number, changed);
+    note_change(number);
+  }
   /// True gap of two balls at the present (length).
   double gap(std::uint32_t a, std::uint32_t b) const {
     return norm(way(a, b)) - truth.balls[a].radius - truth.balls[b].radius;
@@ -261,18 +272,6 @@ class BouncingBalls final : core::Host {
     const double sinking = 0.125 * definition_.contact_tolerance;
     const double root = std::sqrt(speed_error * speed_error + 2.0 * acceleration * sinking);
     return root + speed_error > 0.0 ? 2.0 * sinking / (root + speed_error) : 1e3;
-  }
-
-  /// From now on the ball moves so. Its next report lies anywhere within its errors.
-  void turn(std::uint32_t number, const Vec3& velocity) {
-    truth.set_velocity(number, core_.time(), velocity);
-    Bound changed = bound(number);
-    const State now = report_of(number, core_.time());
-    const Vec3 expected = core_.balls().position(number);
-    changed.position = expected + core_.balls().nearest(now.position - expected);
-    changed.velocity = now.velocity;
-    core_.set_bound(number, changed);
-    note_change(number);
   }
 
   /// Lets the ball bounce off a wall that it touches and approaches. Returns when to look again.

@@ -216,6 +216,29 @@ TEST(Core, KeepsItsInvariantsWhenBallsComeAndGo) {
   }
 }
 
+/// All balls, or two of three, get other velocities together, as often as a game has frames.
+TEST(Core, KeepsItsInvariantsWhenManyBallsTurnTogether) {
+  for (const double acceleration : {0.0, 1.0})
+    for (const WorldDefinition& definition : {with_walls(), periodic(), unbounded(), flat()}) {
+      const Crowd crowd{
+          .count = 200, .least_radius = 0.05, .largest_radius = 0.4, .acceleration = acceleration};
+      BouncingBalls run(definition, {random_balls(crowd, definition, seed), seed});
+      Random random(seed);
+      for (int step = 0; step < 60; ++step) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", step " << step);
+        run.play(step / 60.0);
+        for (std::uint32_t number = 0; number < crowd.count; ++number) {
+          Vec3 velocity = 4.0 * random.point_in_ball();
+          if (definition.dimensions == 2) velocity.z = 0.0;
+          if (step % 2 == 0 || number % 3 > 0) run.turn(number, velocity);
+        }
+        ASSERT_STREQ(run.audit(), nullptr);
+        ASSERT_GE(run.least_gap(), -definition.contact_tolerance);
+      }
+      EXPECT_GT(run.bounces.size(), 10u);
+    }
+}
+
 /// In a small box, regions are as wide as images permit, and all neighbours are met in several images.
 TEST(Core, FindsImpactsOfBallsThatFillAPeriodicBox) {
   WorldDefinition definition = periodic();
