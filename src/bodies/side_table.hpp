@@ -21,11 +21,13 @@ class SideTable {
   const Record* find(const Body& body) const {
     return body.*index == Body::none ? nullptr : &records_[body.*index];
   }
-  /// Precondition: the body has no record.
-  Record& add(Body& body, const Record& record) {
+  /// Gives the body a record with default fields. Precondition: it has none.
+  Record& add(Body& body, std::uint32_t number) {
     assert(body.*index == Body::none);
     body.*index = static_cast<std::uint32_t>(records_.size());
-    return records_.emplace_back(record);
+    records_.emplace_back();
+    records_.back().body = number;
+    return records_.back();
   }
   Record& operator[](const Body& body) { return records_[body.*index]; }
   /// Removes the record of the body, if there is one. The last record takes its index. `bodies` contains the

@@ -12,6 +12,8 @@ namespace {
 
 /// So many balls are a batch.
 constexpr std::size_t batch = 64;
+/// The pairs of so many balls are listed at a time.
+constexpr std::size_t part = 256;
 
 }  // namespace
 
@@ -61,61 +63,85 @@ void Core::note_changes(std::span<const std::uint32_t> changed, Host& host) {
 /// Computes when changed balls are due, as schedule() does.
 void Core::schedule_many(std::span<const std::uint32_t> changed, Host& host) {
   undecided_.clear();
-  constexpr std::size_t part = 256;
+  Counters work;
   for (std::size_t k = 0; k < changed.size(); k += part)
-    look_out(changed.subspan(k, std::min(changed.size() - k, part)), host);
-  for (const std::uint32_t number : undecided_) find_due(number, false, host);
-  for (const std::uint32_t number : changed)
-    if (!balls_[number].is(Ball::passive)) queue_.push(balls_.all(), number);
+    find_due_of(changed.subspan(k, std::min(changed.size() - k, part)), work);
+  host.work_counters(changed.front()) += work;
+  ask_host(host);
+  queue_.push(balls_.all(), changed);
 }
 
-/// Computes when some balls are due, but for those about which the host has to be asked: these are added to
-/// undecided_.
-void Core::look_out(std::span<const std::uint32_t> some, Host& host) {
-  first_.clear();
-  second_.clear();
-  for (const std::uint32_t number : some) {
-    const Ball& ball = balls_[number];
-    if (ball.is(Ball::passive) || ball.is(Ball::linked)) continue;
-    for (const std::uint32_t other : lists_.at(ball.list)) {
-      if (!looks_out_for(number, other)) continue;
-      first_.push_back(number);
-      second_.push_back(other);
-    }
-  }
-  const std::size_t count = first_.size();
-  const std::size_t whole = (count + group_lanes - 1) / group_lanes * group_lanes;
-  if (count > 0) {
-    first_.resize(whole, first_.back());
-    second_.resize(whole, second_.back());
-  }
-  apart_.resize(whole);
-  pairs_stay_apart(balls_.all().data(), first_.data(), second_.data(), whole, pair_query(), apart_.data());
-  Counters work;
-  std::size_t pair = 0;
+/// Begins the scan of some balls, and lists the pairs of each and those that it looks out for, ball by ball:
+/// first_ and second_. One that is linked is paired with itself, which is never apart. Returns their number;
+/// behind them, the last pair fills the group.
+std::size_t Core::list_pairs(std::span<const std::uint32_t> some) {
+  std::size_t count = 0;
   for (const std::uint32_t number : some) {
     Ball& ball = balls_[number];
     if (ball.is(Ball::passive)) continue;
-    const std::size_t begin = pair;
-    while (pair < count && first_[pair] == number) ++pair;
-    if (ball.is(Ball::linked) || std::any_of(&apart_[begin], &apart_[pair], [&](double apart) {
-          return !(rounding::sum_down(balls_.time(), apart) > balls_.time());
-        })) {
-      undecided_.push_back(number);
+    begin_scan(ball);
+    const auto neighbours = lists_.at(ball.list);
+    if (first_.size() < count + neighbours.size() + group_lanes + 1) {
+      first_.resize(2 * (count + neighbours.size() + group_lanes + 1));
+      second_.resize(first_.size());
+    }
+    for (const std::uint32_t other : neighbours) {
+      first_[count] = number;
+      second_[count] = other;
+      count += static_cast<std::size_t>(looks_out_for(number, other));
+    }
+    first_[count] = second_[count] = number;
+    count += static_cast<std::size_t>(ball.is(Ball::linked));
+  }
+  if (count == 0) return 0;
+  for (std::size_t k = 0; k < group_lanes; ++k) {
+    first_[count + k] = first_[count - 1];
+    second_[count + k] = second_[count - 1];
+  }
+  return count;
+}
+
+/// Computes when some balls are due, except for those that are linked, or near one that they look out for:
+/// undecided_ gets all that they may meet.
+void Core::find_due_of(std::span<const std::uint32_t> some, Counters& work) {
+  const std::size_t count = list_pairs(some);
+  if (apart_.size() < first_.size()) apart_.resize(first_.size());
+  pairs_stay_apart(balls_.all().data(), first_.data(), second_.data(), count, pair_query(), apart_.data());
+  const double now = balls_.time();
+  for (std::size_t k = 0; k < count;) {
+    if (apart_[k] == infinity) {
+      ++k;
       continue;
     }
-    if (ball.scans < 255) ++ball.scans;
-    ball.about = none;
-    ball.due = ball.second = ball.own;
-    for (std::size_t k = begin; k < pair; ++k) {
+    Ball& ball = balls_[first_[k]];
+    const std::size_t before = undecided_.size();
+    bool is_decided = true;
+    for (const std::uint32_t number = first_[k]; k < count && first_[k] == number; ++k) {
       if (apart_[k] == infinity) continue;
-      const double until = rounding::sum_down(balls_.time(), apart_[k]);
+      undecided_.push_back({number, second_[k], apart_[k]});
+      is_decided = is_decided && rounding::sum_down(now, apart_[k]) > now;
+    }
+    if (!is_decided) continue;
+    for (std::size_t found = before; found < undecided_.size(); ++found) {
+      const double until = rounding::sum_down(now, undecided_[found].apart);
       ++work.certificates;
       work.hot_pairs += static_cast<std::uint64_t>(until < ball.own);
-      consider(ball, second_[k], until);
+      consider(ball, undecided_[found].other, until);
     }
+    undecided_.resize(before);
   }
-  host.work_counters(some.front()) += work;
+}
+
+/// Computes when those are due that are undecided, ball by ball.
+void Core::ask_host(Host& host) {
+  for (std::size_t k = 0; k < undecided_.size();) {
+    const std::uint32_t number = undecided_[k].ball;
+    const auto linked = linked_with(number, host);
+    for (; k < undecided_.size() && undecided_[k].ball == number; ++k)
+      if (undecided_[k].other != number)
+        look_out_for(number, undecided_[k].other, undecided_[k].apart, linked, host);
+    look_out_for_linked(number, linked, host);
+  }
 }
 
 }  // namespace kinesphere::core

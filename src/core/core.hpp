@@ -195,20 +195,33 @@ class Core {
   void prefetch() const;
 
   // batch.cpp
+  /// A ball and one that it looks out for, which it may meet but not for the time `apart` from now.
+  struct Meeting {
+    std::uint32_t ball, other;
+    double apart;
+  };
   bool is_batch(std::span<const std::uint32_t> changed) const;
   void set_own_of_many(std::span<const std::uint32_t> changed, Host& host);
   void note_changes(std::span<const std::uint32_t> changed, Host& host);
   void schedule_many(std::span<const std::uint32_t> changed, Host& host);
-  void look_out(std::span<const std::uint32_t> some, Host& host);
+  std::size_t list_pairs(std::span<const std::uint32_t> some);
+  void find_due_of(std::span<const std::uint32_t> some, Counters& work);
+  void ask_host(Host& host);
 
   // scan.cpp
   void note_change(std::uint32_t number, Host& host);
   void schedule(std::uint32_t number, bool is_last, Host& host);
   void find_due(std::uint32_t number, bool is_last, Host& host);
+  static void begin_scan(Ball& ball);
+  std::span<const std::uint32_t> linked_with(std::uint32_t number, Host& host) const;
+  void look_out_for(std::uint32_t number, std::uint32_t other, double apart,
+                    std::span<const std::uint32_t> linked, Host& host);
+  void look_out_for_linked(std::uint32_t number, std::span<const std::uint32_t> linked, Host& host);
   /// Returns true if of two neighbours the first one looks out for the other: it has changed last.
   bool looks_out_for(std::uint32_t number, std::uint32_t other) const {
     const std::uint64_t own = changes_[number], change = changes_[other];
-    return change < own || (change == own && other < number);
+    // Without a branch, which nobody can predict.
+    return (change < own) | ((change == own) & (other < number));
   }
   std::span<const std::uint32_t> looked_out_for(std::uint32_t number,
                                                 std::span<const std::uint32_t> neighbours,
@@ -288,9 +301,10 @@ class Core {
   std::size_t queued_for_ = 0;  ///< how many numbers there were when the queue was filled
   // Members only to reuse their memory.
   RegionSearch search_;
-  std::vector<std::uint32_t> gone_, new_, settling_, undecided_;
-  std::vector<std::uint32_t> first_, second_;
+  std::vector<std::uint32_t> gone_, new_, settling_;
+  std::vector<std::uint32_t> first_, second_;  ///< pairs of some balls of a batch
   std::vector<double> apart_;
+  std::vector<Meeting> undecided_;
 };
 
 }  // namespace kinesphere::core

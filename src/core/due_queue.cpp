@@ -47,6 +47,22 @@ void DueQueue::push(std::span<const Ball> balls, std::uint32_t ball) {
   }
 }
 
+void DueQueue::push(std::span<const Ball> balls, std::span<const std::uint32_t> many) {
+  if (heads_.empty()) return;
+  const std::size_t sorted = present_.size();
+  // Buckets lie anywhere in memory: those of later balls are fetched meanwhile.
+  constexpr std::size_t ahead = 8;
+  for (std::size_t k = 0; k < many.size() + ahead; ++k) {
+    if (k < many.size()) {
+      const std::uint64_t bucket = bucket_of(balls[many[k]].due);
+      const std::uint32_t head = heads_[bucket & (heads_.size() - 1)];
+      if (head != none) prefetch_line(&chunks_[head]);
+    }
+    if (k >= ahead) push_unsorted(balls, many[k - ahead]);
+  }
+  if (present_.size() > sorted) sort_present();
+}
+
 void DueQueue::put(std::uint64_t bucket, std::uint32_t ball) {
   std::uint32_t& head = heads_[bucket & (heads_.size() - 1)];
   if (head == none || chunks_[head].count == std::size(Chunk{}.balls)) {
@@ -90,6 +106,10 @@ void DueQueue::push_unsorted(std::span<const Ball> balls, std::uint32_t ball) {
     push(balls, ball);
 }
 
+void DueQueue::sort_present() {
+  std::sort(present_.begin(), present_.end(), [](const Entry& a, const Entry& b) { return b < a; });
+}
+
 /// Fetches the balls of a bucket.
 void DueQueue::prefetch(std::span<const Ball> balls, std::uint32_t head) const {
   for (std::uint32_t at = head; at != none; at = chunks_[at].next)
@@ -118,7 +138,7 @@ void DueQueue::open_next(std::span<const Ball> balls, double until) {
     }
     at = chunk.next;
   }
-  std::sort(present_.begin(), present_.end(), [](const Entry& a, const Entry& b) { return b < a; });
+  sort_present();
   if ((bucket_ & (heads_.size() / 2 - 1)) == 0 || stored_ == 0) take_far(balls, until);
   if (bucket_ - adapted_ >= 256) adapt(balls);
 }
@@ -189,7 +209,7 @@ void DueQueue::refill(std::span<const Ball> balls, double now) {
   for (std::uint32_t ball = 0; ball < balls.size(); ++ball) {
     if (balls[ball].has_region()) push_unsorted(balls, ball);
   }
-  std::sort(present_.begin(), present_.end(), [](const Entry& a, const Entry& b) { return b < a; });
+  sort_present();
 }
 
 std::size_t DueQueue::bytes() const {

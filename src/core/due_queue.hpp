@@ -29,6 +29,8 @@ class DueQueue {
 
   /// Enters a ball, which is due at Ball::due.
   void push(std::span<const Ball> balls, std::uint32_t ball);
+  /// Enters many balls.
+  void push(std::span<const Ball> balls, std::span<const std::uint32_t> many);
   /// Returns the first entry, without taking it; one with an infinite time if there is none up to `until`.
   Entry first(std::span<const Ball> balls, double until);
   /// Takes the entry that first() has returned just now. Returns its ball.
@@ -67,6 +69,7 @@ class DueQueue {
   /// How many buckets after the present one a bucket of the ring is.
   std::uint64_t after_present(std::uint32_t name) const { return (name - name_of(bucket_)) & 0x7fffffff; }
   void push_unsorted(std::span<const Ball> balls, std::uint32_t ball);
+  void sort_present();
   void put(std::uint64_t bucket, std::uint32_t ball);
   void prefetch(std::span<const Ball> balls, std::uint32_t head) const;
   void open_next(std::span<const Ball> balls, double until);

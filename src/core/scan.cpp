@@ -32,12 +32,9 @@ void Core::schedule(std::uint32_t number, bool is_last, Host& host) {
 
 void Core::find_due(std::uint32_t number, bool is_last, Host& host) {
   Ball& ball = balls_[number];
-  if (ball.scans < 255) ++ball.scans;
-  ball.about = none;
-  ball.due = ball.second = ball.own;
+  begin_scan(ball);
   const auto neighbours = lists_.at(ball.list);
-  const auto linked = ball.is(Ball::linked) ? host.linked_with(number) : std::span<const std::uint32_t>();
-  Counters& work = host.work_counters(number);
+  const auto linked = linked_with(number, host);
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     std::array<std::uint32_t, most_lanes> room;
     auto some = neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes));
@@ -46,24 +43,48 @@ void Core::find_due(std::uint32_t number, bool is_last, Host& host) {
     for (std::uint32_t left = candidates(number, some, ball.second - balls_.time(), apart); left != 0;
          left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-      const std::uint32_t other = some[lane];
-      double until = rounding::sum_down(balls_.time(), apart[lane]);
-      if (!(until > balls_.time())) until = apart_until(number, other, ball.second - balls_.time());
-      if (!(until > balls_.time())) {
-        ball.set(Ball::crowded, true);
-        balls_[other].set(Ball::crowded, true);
-        if (std::binary_search(linked.begin(), linked.end(), other)) continue;
-        until = std::min(host.unchanged_until(number, other), holds_until(number, other));
-      }
-      ++work.certificates;
-      if (until < ball.own) ++work.hot_pairs;
-      consider(ball, other, until);
+      look_out_for(number, some[lane], apart[lane], linked, host);
     }
   }
+  look_out_for_linked(number, linked, host);
+}
+
+/// The list of a ball is about to be scanned.
+void Core::begin_scan(Ball& ball) {
+  if (ball.scans < 255) ++ball.scans;
+  ball.about = none;
+  ball.due = ball.second = ball.own;
+}
+
+std::span<const std::uint32_t> Core::linked_with(std::uint32_t number, Host& host) const {
+  return balls_[number].is(Ball::linked) ? host.linked_with(number) : std::span<const std::uint32_t>();
+}
+
+/// A ball may meet a neighbour, but certainly does not for the time `apart`. `linked`: those with which it is
+/// linked.
+void Core::look_out_for(std::uint32_t number, std::uint32_t other, double apart,
+                        std::span<const std::uint32_t> linked, Host& host) {
+  Ball& ball = balls_[number];
+  Counters& work = host.work_counters(number);
+  double until = rounding::sum_down(balls_.time(), apart);
+  if (!(until > balls_.time())) until = apart_until(number, other, ball.second - balls_.time());
+  if (!(until > balls_.time())) {
+    ball.set(Ball::crowded, true);
+    balls_[other].set(Ball::crowded, true);
+    if (std::binary_search(linked.begin(), linked.end(), other)) return;
+    until = std::min(host.unchanged_until(number, other), holds_until(number, other));
+  }
+  ++work.certificates;
+  if (until < ball.own) ++work.hot_pairs;
+  consider(ball, other, until);
+}
+
+void Core::look_out_for_linked(std::uint32_t number, std::span<const std::uint32_t> linked, Host& host) {
   for (const std::uint32_t other : linked) {
     if (!looks_out_for(number, other)) continue;
-    ++work.certificates;
-    consider(ball, other, std::min(host.unchanged_until(number, other), holds_until(number, other)));
+    ++host.work_counters(number).certificates;
+    consider(balls_[number], other,
+             std::min(host.unchanged_until(number, other), holds_until(number, other)));
   }
 }
 

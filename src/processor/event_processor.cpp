@@ -152,13 +152,25 @@ void EventProcessor::invalidate(std::uint32_t number, bool turns) {
   dirty_.add(bodies(), number, turns);
 }
 
-void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
+/// Makes everything stale that depends on how the body has moved until now.
+[[gnu::always_inline]] inline void EventProcessor::turn_reported(std::uint32_t number, bool turns) {
+  contacts().turn_reported(number);
+  invalidate(number, turns);
+}
+
+[[gnu::always_inline]] inline void EventProcessor::turn(std::uint32_t number, const Vec3& velocity) {
   Body& body = bodies()[number];
   if (body.is_sleeping()) Sleeping(*state_, *this).wake(number);
   if (!body.fresh(time_)) bodies().change_of(number).velocity = velocity;
   // A body with a report of now moves on with it at once, also if it awaits another report, having slept.
   if (body.bound.time == time_) body.bound.velocity = velocity;
   turn_reported(number, true);
+}
+
+void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) { turn(number, velocity); }
+
+void EventProcessor::set_velocities(std::span<const BodyId> ids, std::span<const Vec3> velocities) {
+  for (std::size_t k = 0; k < ids.size(); ++k) turn(bodies().table().number_of(ids[k]), velocities[k]);
 }
 
 void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity) {
@@ -168,12 +180,6 @@ void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angu
   if (!body.fresh(time_)) bodies().change_of(number);
   contacts().set_largest_acceleration(number, bodies().largest_acceleration(number));
   turn_reported(number);
-}
-
-/// Makes everything stale that depends on how the body has moved until now.
-void EventProcessor::turn_reported(std::uint32_t number, bool turns) {
-  contacts().turn_reported(number);
-  invalidate(number, turns);
 }
 
 void EventProcessor::detach(std::uint32_t number) {

@@ -99,6 +99,8 @@ class alignas(128) EventProcessor final : public core::Host {
     set_velocity(bodies().table().number_of(body), velocity);
   }
   void set_velocity(std::uint32_t number, const Vec3& velocity);
+  /// The same of many bodies, one after the other.
+  void set_velocities(std::span<const BodyId> ids, std::span<const Vec3> velocities);
   /// Sets the angular velocity of a rigid body from the current time on.
   void set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity);
   /// The two of this event, a crossing of a sensor distance that has been delivered, have not crossed it: a
@@ -181,6 +183,7 @@ class alignas(128) EventProcessor final : public core::Host {
   const ContactGraph& contacts() const { return state_->contacts; }
 
   void note_probes(std::span<const std::uint32_t> numbers, ProbeCause cause);
+  void turn(std::uint32_t number, const Vec3& velocity);
   void turn_reported(std::uint32_t number, bool turns = false);
   Result<void> recertify_dirty();
 

@@ -56,8 +56,8 @@ class Reports {
   std::size_t first_bad(const Bodies& bodies, double time, PoolLease& lease) const;
   Result<void> check(const Bodies& bodies, double time, std::size_t k) const;
   void ask_rotations(const Bodies& bodies, double time);
-  void apply_all(Bodies& bodies, double time, PoolLease& lease);
-  bool apply_plain(Bodies& bodies, double time, std::size_t k) const;
+  void apply_all(Bodies& bodies, double time, std::span<const std::uint32_t> numbers, PoolLease& lease);
+  bool apply_plain(Bodies& bodies, double time, std::uint32_t number, State state) const;
   void apply(Bodies& bodies, double time, std::size_t k, std::vector<Violation>& broken) const;
   static void adopt(const Bodies& bodies, Body& body, const Bound& before, const Bound& after, double radius);
   std::optional<BoundViolation> turn(RigidRecord& record, const Body& body, const Bound& before,

@@ -145,13 +145,16 @@ Result<void> World::set_velocities(std::span<const BodyId> bodies, std::span<con
   check.require(velocities.size() == bodies.size(), ErrorCode::out_of_range, {"velocities"},
                 "must have one entry per body,", bodies.size(), velocities.size());
   if (check.error()) return *check.error();
+  const WorldDefinition& definition = engine_->definition();
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (auto valid = preconditions.can_turn(bodies[k]); !valid) return valid;
-    if (auto valid = check_velocity(velocities[k], bodies[k], engine_->definition(), call); !valid)
-      return valid;
+    if (preconditions.may_turn(bodies[k]) && is_valid_velocity(velocities[k], definition)) continue;
+    auto valid = preconditions.can_turn(bodies[k]);
+    return valid ? check_velocity(velocities[k], bodies[k], definition, call) : valid;
   }
-  for (std::size_t k = 0; k < bodies.size(); ++k)
-    changing(step::SetVelocity{bodies[k], velocities[k]}).set_velocity(bodies[k], velocities[k]);
+  if (recorder_)
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      recorder_->note(*this, step::SetVelocity{bodies[k], velocities[k]});
+  changeable().changes().set_velocities(bodies, velocities);
   return {};
 }
 

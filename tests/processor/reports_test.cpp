@@ -100,7 +100,8 @@ TEST_F(ReportsTest, GiveBodiesTheRadiiThatTheyHaveByThen) {
 
 TEST_F(ReportsTest, OfSleepingBodiesStandStill) {
   add({.acceleration_limit = 1.0});
-  bodies.sleep_records.add(bodies[0], {0, motion_limits_of(bodies.definition_of(0))});
+  const MotionLimits limits = motion_limits_of(bodies.definition_of(0));
+  bodies.sleep_records.add(bodies[0], 0).limits = limits;
   answers[0].velocity = {0.5, 0, 0};
   ASSERT_TRUE(take({0}, 1.0));
   EXPECT_TRUE(bodies[0].stands_still());
