@@ -111,8 +111,9 @@ class ContactGraph {
   /// Marks all reported approaches of a body as turned, because the caller has given it another velocity,
   /// place or shape.
   void turn_reported(std::uint32_t body) {
-    if (flags_[body].walls != 0 || !partners_of(body).empty()) turn_approaches(body);
+    if (touches_any(body)) turn_approaches(body);
   }
+  bool touches_any(std::uint32_t body) const { return flags_[body].walls != 0 || !partners_of(body).empty(); }
 
   // Begins of contacts.
 

@@ -48,6 +48,7 @@
 #include "core/stay_counts.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/world_definition.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace kinesphere::core {
 
@@ -89,8 +90,9 @@ class Core {
         static_cast<std::uint8_t>(touches_walls ? ball.walls | Ball::at_walls : ball.walls & ~Ball::at_walls);
   }
   /// Restores the invariants, which hold but for these balls: they have arrived, or move in another way, or
-  /// what they are to others has changed. Cost: one scan for each.
-  void settle(std::span<const std::uint32_t> changed, Host& host);
+  /// what they are to others has changed. The threads of the lease share what concerns many. Cost: one scan
+  /// for each.
+  void settle(std::span<const std::uint32_t> changed, Host& host, PoolLease& lease);
 
   /// Returns when something is due next; infinity if that is later than `until`.
   double next_due(double until) { return queue_.first(balls_.all(), until).time; }
@@ -194,29 +196,47 @@ class Core {
   double holds_until(std::uint32_t number, std::uint32_t other) const;
   void prefetch() const;
 
+  /// A changed ball may be elsewhere than in its safe region, by which others find it.
+  bool may_be_elsewhere(std::uint32_t number) const {
+    return !balls_[number].is(Ball::at_wall) && !(balls_[number].own > balls_.time());
+  }
+
   // batch.cpp
   /// A ball and one that it looks out for, which it may meet but not for the time `apart` from now.
   struct Meeting {
     std::uint32_t ball, other;
     double apart;
   };
+  /// What a thread finds out about a part of a batch, and its memory, to reuse.
+  struct Part {
+    std::vector<std::uint32_t> first, second;  ///< pairs of some balls
+    std::vector<double> apart;
+    std::vector<Meeting> undecided;
+    std::vector<std::uint32_t> leaving;  ///< those that may be elsewhere than in their safe regions
+    std::vector<std::uint32_t> near;     ///< those that may be in touch
+    std::vector<std::uint32_t> linked;
+    Counters work;
+  };
   bool is_batch(std::span<const std::uint32_t> changed) const;
-  void set_own_of_many(std::span<const std::uint32_t> changed, Host& host);
-  void note_changes(std::span<const std::uint32_t> changed, Host& host);
-  void schedule_many(std::span<const std::uint32_t> changed, Host& host);
-  std::size_t list_pairs(std::span<const std::uint32_t> some);
-  void find_due_of(std::span<const std::uint32_t> some, Counters& work);
-  void ask_host(Host& host);
+  void for_each_part(std::span<const std::uint32_t> changed, PoolLease& lease, auto work);
+  void set_own_of_many(std::span<const std::uint32_t> changed, Host& host, PoolLease& lease);
+  void set_own_of_some(std::span<const std::uint32_t> some, Part& part, Host& host);
+  void note_changes(std::span<const std::uint32_t> changed, Host& host, PoolLease& lease);
+  void schedule_many(std::span<const std::uint32_t> changed, Host& host, PoolLease& lease);
+  std::size_t list_pairs(std::span<const std::uint32_t> some, Part& part);
+  void find_due_of(std::span<const std::uint32_t> some, Part& part);
+  void ask_host(Part& part, Host& host);
 
   // scan.cpp
   void note_change(std::uint32_t number, Host& host);
   void schedule(std::uint32_t number, bool is_last, Host& host);
   void find_due(std::uint32_t number, bool is_last, Host& host);
   static void begin_scan(Ball& ball);
-  std::span<const std::uint32_t> linked_with(std::uint32_t number, Host& host) const;
-  void look_out_for(std::uint32_t number, std::uint32_t other, double apart,
-                    std::span<const std::uint32_t> linked, Host& host);
-  void look_out_for_linked(std::uint32_t number, std::span<const std::uint32_t> linked, Host& host);
+  void find_linked(std::uint32_t number, std::vector<std::uint32_t>& linked, Host& host) const;
+  [[nodiscard]] bool look_out_for(std::uint32_t number, std::uint32_t other, double apart,
+                                  std::span<const std::uint32_t> linked, Counters& work, Host& host);
+  void look_out_for_linked(std::uint32_t number, std::span<const std::uint32_t> linked, Counters& work,
+                           Host& host);
   /// Returns true if of two neighbours the first one looks out for the other: it has changed last.
   bool looks_out_for(std::uint32_t number, std::uint32_t other) const {
     const std::uint64_t own = changes_[number], change = changes_[other];
@@ -297,14 +317,13 @@ class Core {
   double first_radius_ = 0.0;   ///< of the first safe region of a ball that arrives alone (length)
   Saved saved_;                 ///< from a snapshot, until rebuild()
   std::size_t present_ = 0;     ///< how many balls there are
+  std::size_t arriving_ = 0;    ///< how many of them are arriving
   std::size_t measured_ = 0;    ///< how many there were when first_radius_ was chosen
   std::size_t queued_for_ = 0;  ///< how many numbers there were when the queue was filled
   // Members only to reuse their memory.
   RegionSearch search_;
-  std::vector<std::uint32_t> gone_, new_, settling_;
-  std::vector<std::uint32_t> first_, second_;  ///< pairs of some balls of a batch
-  std::vector<double> apart_;
-  std::vector<Meeting> undecided_;
+  std::vector<std::uint32_t> gone_, new_, settling_, linked_;
+  std::vector<Part> parts_;
 };
 
 }  // namespace kinesphere::core

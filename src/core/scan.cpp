@@ -15,8 +15,8 @@ void Core::note_change(std::uint32_t number, Host& host) {
   ball.set(Ball::crowded, false);
   std::uint64_t last = changes_[number];
   for (const std::uint32_t other : lists_.at(ball.list)) last = std::max(last, changes_[other]);
-  if (ball.is(Ball::linked))
-    for (const std::uint32_t other : host.linked_with(number)) last = std::max(last, changes_[other]);
+  find_linked(number, linked_, host);
+  for (const std::uint32_t other : linked_) last = std::max(last, changes_[other]);
   changes_[number] = last + 1;
 }
 
@@ -34,7 +34,8 @@ void Core::find_due(std::uint32_t number, bool is_last, Host& host) {
   Ball& ball = balls_[number];
   begin_scan(ball);
   const auto neighbours = lists_.at(ball.list);
-  const auto linked = linked_with(number, host);
+  find_linked(number, linked_, host);
+  Counters& work = host.work_counters(number);
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     std::array<std::uint32_t, most_lanes> room;
     auto some = neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes));
@@ -43,10 +44,12 @@ void Core::find_due(std::uint32_t number, bool is_last, Host& host) {
     for (std::uint32_t left = candidates(number, some, ball.second - balls_.time(), apart); left != 0;
          left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-      look_out_for(number, some[lane], apart[lane], linked, host);
+      if (!look_out_for(number, some[lane], apart[lane], linked_, work, host)) continue;
+      ball.set(Ball::crowded, true);
+      balls_[some[lane]].set(Ball::crowded, true);
     }
   }
-  look_out_for_linked(number, linked, host);
+  look_out_for_linked(number, linked_, work, host);
 }
 
 /// The list of a ball is about to be scanned.
@@ -56,33 +59,34 @@ void Core::begin_scan(Ball& ball) {
   ball.due = ball.second = ball.own;
 }
 
-std::span<const std::uint32_t> Core::linked_with(std::uint32_t number, Host& host) const {
-  return balls_[number].is(Ball::linked) ? host.linked_with(number) : std::span<const std::uint32_t>();
+void Core::find_linked(std::uint32_t number, std::vector<std::uint32_t>& linked, Host& host) const {
+  linked.clear();
+  if (balls_[number].is(Ball::linked)) host.linked_with(number, linked);
 }
 
 /// A ball may meet a neighbour, but certainly does not for the time `apart`. `linked`: those with which it is
-/// linked.
-void Core::look_out_for(std::uint32_t number, std::uint32_t other, double apart,
-                        std::span<const std::uint32_t> linked, Host& host) {
+/// linked. Returns true if the two may be in touch.
+bool Core::look_out_for(std::uint32_t number, std::uint32_t other, double apart,
+                        std::span<const std::uint32_t> linked, Counters& work, Host& host) {
   Ball& ball = balls_[number];
-  Counters& work = host.work_counters(number);
   double until = rounding::sum_down(balls_.time(), apart);
   if (!(until > balls_.time())) until = apart_until(number, other, ball.second - balls_.time());
-  if (!(until > balls_.time())) {
-    ball.set(Ball::crowded, true);
-    balls_[other].set(Ball::crowded, true);
-    if (std::binary_search(linked.begin(), linked.end(), other)) return;
+  const bool are_near = !(until > balls_.time());
+  if (are_near) {
+    if (std::binary_search(linked.begin(), linked.end(), other)) return true;
     until = std::min(host.unchanged_until(number, other), holds_until(number, other));
   }
   ++work.certificates;
   if (until < ball.own) ++work.hot_pairs;
   consider(ball, other, until);
+  return are_near;
 }
 
-void Core::look_out_for_linked(std::uint32_t number, std::span<const std::uint32_t> linked, Host& host) {
+void Core::look_out_for_linked(std::uint32_t number, std::span<const std::uint32_t> linked, Counters& work,
+                               Host& host) {
   for (const std::uint32_t other : linked) {
     if (!looks_out_for(number, other)) continue;
-    ++host.work_counters(number).certificates;
+    ++work.certificates;
     consider(balls_[number], other,
              std::min(host.unchanged_until(number, other), holds_until(number, other)));
   }

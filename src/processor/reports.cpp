@@ -55,27 +55,25 @@ Error no_rotation_probe(BodyId body, std::string_view call) {
 }  // namespace
 
 Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double time,
-                                                          std::span<const std::uint32_t> numbers) {
-  PoolLease alone;
-  PoolLease& lease = lease_ != nullptr ? *lease_ : alone;
+                                                          std::span<const std::uint32_t> numbers,
+                                                          PoolLease& work) {
   if (numbers.size() <= few_reports && profile_ == nullptr) {
     if (take_few(bodies, time, numbers)) return std::span<const Violation>();
   } else {
-    ask_for(bodies, time, numbers, lease);
+    ask_for(bodies, time, numbers, work);
   }
   violations_.clear();
   ask_rotations(bodies, time);
-  const std::size_t bad = first_bad(bodies, time, lease);
+  const std::size_t bad = first_bad(bodies, time, work);
   if (bad < ids_.size()) return check(bodies, time, bad).error();
-  apply_all(bodies, time, numbers, lease);
+  apply_all(bodies, time, numbers, work);
   return std::span<const Violation>(violations_);
 }
 
 Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, double time,
                                                          std::span<const std::uint32_t> numbers) {
   PoolLease alone;
-  PoolLease& lease = lease_ != nullptr ? *lease_ : alone;
-  ask_for(bodies, time, numbers, lease);
+  ask_for(bodies, time, numbers, alone);
   std::vector<std::uint32_t> broken;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const Body& body = bodies[numbers[k]];
@@ -131,13 +129,20 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
 }
 
 void Reports::ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
-                      PoolLease& lease) {
+                      PoolLease& work) {
   ids_.resize(numbers.size());
-  states_.assign(numbers.size(), no_answer);
-  for (std::size_t k = 0; k < numbers.size(); ++k) ids_[k] = bodies.id_of(numbers[k]);
+  states_.resize(numbers.size());
+  work.parallel_for(numbers.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t k = from; k < to; ++k) {
+      ids_[k] = bodies.id_of(numbers[k]);
+      states_[k] = no_answer;
+    }
+  });
+  PoolLease alone;
+  PoolLease& asking = lease_ != nullptr ? *lease_ : alone;
   asking_ = true;
   const ScopeGuard answered([&] { asking_ = false; });
-  lease.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+  asking.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     const std::size_t count = to - from;
     (*probe_)(std::span(ids_).subspan(from, count), time, std::span(states_).subspan(from, count));
   });
@@ -199,18 +204,20 @@ void Reports::apply_all(Bodies& bodies, double time, std::span<const std::uint32
   // Few of many pending changes are removed one by one.
   const bool are_many = 8 * numbers.size() >= bodies.changes.size();
   std::mutex mutex;
+  std::size_t released = 0;
   lease.parallel_for(numbers.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     std::vector<Violation> some;
+    std::size_t gone = 0;
     for (std::size_t k = from; k < to; ++k) {
       if (!apply_plain(bodies, time, numbers[k], states_[k])) apply(bodies, time, k, some);
-      if (are_many) bodies.release_change(numbers[k]);
+      if (are_many) gone += static_cast<std::size_t>(bodies.release_change(numbers[k]));
     }
-    if (some.empty()) return;
     const std::lock_guard lock(mutex);
+    released += gone;
     violations_.insert(violations_.end(), some.begin(), some.end());
   });
   if (are_many)
-    bodies.drop_released_changes();
+    bodies.drop_released_changes(released);
   else
     for (const std::uint32_t number : numbers) bodies.forget_change(number);
   std::sort(violations_.begin(), violations_.end(),

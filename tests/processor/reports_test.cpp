@@ -20,7 +20,10 @@ class ReportsTest : public testing::Test {
     bodies[number].bound = bound_now(body, 0.0);
     answers.push_back({body.position, body.velocity});
   }
-  auto take(const Numbers& numbers, double time) { return reports.take(bodies, time, numbers); }
+  auto take(const Numbers& numbers, double time) {
+    PoolLease alone;
+    return reports.take(bodies, time, numbers, alone);
+  }
 
   Bodies bodies{WorldDefinition{}};
   std::vector<State> answers;  ///< by number
