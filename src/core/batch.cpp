@@ -33,6 +33,7 @@ void Core::for_each_part(std::span<const std::uint32_t> changed, PoolLease& leas
     part.undecided.clear();
     part.leaving.clear();
     part.near.clear();
+    part.queued.clear();
     part.work = {};
   }
   lease.parallel_for(changed.size(), least_part, [&](std::size_t from, std::size_t to, std::size_t) {
@@ -94,14 +95,18 @@ void Core::schedule_many(std::span<const std::uint32_t> changed, Host& host, Poo
   for_each_part(changed, lease, [&](std::span<const std::uint32_t> some, Part& part) {
     for (std::size_t k = 0; k < some.size(); k += listed_at_once)
       find_due_of(some.subspan(k, std::min(some.size() - k, listed_at_once)), part);
-    if (threads_ask) ask_host(part, host);
+    if (!threads_ask) return;
+    ask_host(part, host);
+    for (const std::uint32_t number : some)
+      if (queue_.lacks(balls_.all(), number)) part.queued.push_back(number);
   });
   for (Part& part : parts_) {
     if (!threads_ask) ask_host(part, host);
     for (const std::uint32_t number : part.near) balls_[number].set(Ball::crowded, true);
     host.work_counters(changed.front()) += part.work;
+    queue_.push(balls_.all(), part.queued);
   }
-  queue_.push(balls_.all(), changed);
+  if (!threads_ask) queue_.push(balls_.all(), changed);
 }
 
 /// Begins the scan of some balls, and lists the pairs of each and those that it looks out for, ball by ball.

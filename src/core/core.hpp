@@ -215,6 +215,7 @@ class Core {
     std::vector<std::uint32_t> leaving;  ///< those that may be elsewhere than in their safe regions
     std::vector<std::uint32_t> near;     ///< those that may be in touch
     std::vector<std::uint32_t> linked;
+    std::vector<std::uint32_t> queued;  ///< those that the queue has to enter
     Counters work;
   };
   bool is_batch(std::span<const std::uint32_t> changed) const;

@@ -10,18 +10,6 @@
 #include "number/infinity.hpp"
 
 namespace kinesphere::core {
-namespace {
-
-/// Numbers of buckets beyond this are not told apart.
-constexpr double last_bucket = 0x1p62;
-
-}  // namespace
-
-std::uint64_t DueQueue::bucket_of(double time) const {
-  const double place = (time - origin_) * by_width_;
-  if (!(place > 0.0)) return 0;
-  return static_cast<std::uint64_t>(std::min(place, last_bucket));
-}
 
 void DueQueue::push(std::span<const Ball> balls, std::uint32_t ball) {
   const double time = balls[ball].due;
@@ -34,12 +22,8 @@ void DueQueue::push(std::span<const Ball> balls, std::uint32_t ball) {
     present_.insert(std::lower_bound(present_.begin(), present_.end(), entry, later), entry);
     return;
   }
-  // An entry in an earlier bucket, or in this one, will do.
-  const std::uint32_t known = entry_of_[ball];
-  const bool is_far = bucket - bucket_ >= heads_.size();
-  if (known != no_entry && (is_far || (known != far_entry && after_present(known) <= bucket - bucket_)))
-    return;
-  if (is_far) {
+  if (suffices(entry_of_[ball], bucket)) return;
+  if (is_far(bucket)) {
     entry_of_[ball] = far_entry;
     far_.push_back(ball);
   } else {
