@@ -99,7 +99,7 @@ wrappers = {
 
 # Why a language lacks a call of C, and what does the same there.
 lacking: dict[tuple[str, str], str] = {
-    ("ks_world_use_threads", "JavaScript"): "The module in WebAssembly has one thread; the outcome is the same.",
+    ("ks_world_use_threads", "JavaScript"): "Its module has one thread.",
 }
 
 

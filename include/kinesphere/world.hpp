@@ -391,9 +391,10 @@ class World {
   ///   - An event at which the sink threw has been responded to and counts as delivered.
   ///
   /// Workers (workers.hpp) with several threads share the calls of the motion source for 1,024 bodies or more
-  /// at one time, as where many bodies have arrived. All else is done by this thread, so they make hardly any
-  /// run faster. The outcome is the same, bit for bit, for any number of threads. While the world is recorded
-  /// or profiled, or has a rotation probe, this thread does all.
+  /// at one time, as where many bodies have arrived, and what follows from the answers. All else is done by
+  /// this thread, so they make hardly any run faster; use_workers() shares more. The outcome is the same, bit
+  /// for bit, for any number of threads. While the world is recorded or profiled, or has a rotation probe,
+  /// this thread calls the motion source.
   ///
   /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity or an action in a
   /// response, those of set_velocity() or sleep() and, for the second body of an event without one,
@@ -418,8 +419,9 @@ class World {
   /// several may run at one time; but not while the world is recorded or profiled, or has a rotation probe. A
   /// pair filter is always called by the calling thread.
   ///
-  /// The workers must stay where they are until the world is destroyed or told otherwise. Clones and restored
-  /// worlds have none. Errors: probe_in_progress, filter_in_progress, run_in_progress. Cost: O(1).
+  /// The workers must stay where they are until the last call of the world, or until it is told otherwise.
+  /// Clones and restored worlds have none. Errors: probe_in_progress, filter_in_progress, run_in_progress.
+  /// Cost: O(1).
   Result<void> use_workers(Workers* workers, bool call_probe = false);
 
   /// Return the current time, the number of bodies that have not been removed, and the definition.
