@@ -100,13 +100,14 @@ void Core::schedule_many(std::span<const std::uint32_t> changed, Host& host, Poo
     for (const std::uint32_t number : some)
       if (queue_.lacks(balls_.all(), number)) part.queued.push_back(number);
   });
+  std::vector<std::uint32_t>& queued = parts_.front().queued;
   for (Part& part : parts_) {
     if (!threads_ask) ask_host(part, host);
     for (const std::uint32_t number : part.near) balls_[number].set(Ball::crowded, true);
     host.work_counters(changed.front()) += part.work;
-    queue_.push(balls_.all(), part.queued);
+    if (&part != &parts_.front()) queued.insert(queued.end(), part.queued.begin(), part.queued.end());
   }
-  if (!threads_ask) queue_.push(balls_.all(), changed);
+  queue_.push(balls_.all(), threads_ask ? queued : changed);
 }
 
 /// Begins the scan of some balls, and lists the pairs of each and those that it looks out for, ball by ball.
