@@ -105,3 +105,12 @@ ks_status ks_world_run(ks_world world, double until, const ks_run_definition* de
     run(call, object, until, *definition);
   });
 }
+
+ks_status ks_world_use_threads(ks_world world, int32_t threads) {
+  return changing(__func__, world, [&](WorldObject& object) {
+    // One thread is no workers, but its number is checked.
+    auto workers = std::make_unique<Workers>(Workers::create(threads).value());
+    object.world().use_workers(threads > 1 ? workers.get() : nullptr).value();
+    object.in_use = std::move(workers);
+  });
+}

@@ -29,6 +29,7 @@ struct WorldObject {
 
   std::variant<Simulation, GameWorld> owner;
   std::optional<Workers> workers{};                   ///< of the last run with several threads
+  std::unique_ptr<Workers> in_use{};                  ///< of ks_world_use_threads()
   std::optional<std::vector<std::byte>> recording{};  ///< the last one that has been stopped
   std::vector<ks_event> events{};                     ///< of the last step of a game
   Usage usage{};

@@ -38,6 +38,7 @@ int main() {
   const auto sink = [&](const Event& event) { hardest = std::max(hardest, event.approach_speed); };
 
   Workers workers = Workers::create(std::clamp(int(std::thread::hardware_concurrency()), 2, 8)).value();
+  world.use_workers(&workers).value();  // until use_workers(nullptr)
   for (const double until : {1.0, 2.0, 3.0}) {
     if (const auto run = world.run(until, mover, respond, sink, &workers); !run) {
       std::printf("%s\n", run.error().message.c_str());

@@ -905,6 +905,11 @@ static inline ks_run_definition ks_default_run_definition(void) {
 /// wrong response is its field; KS_ERROR_CALLBACK_FAILED.
 KS_API KS_MUST_CHECK ks_status ks_world_run(ks_world world, double until,
                                             const ks_run_definition* definition);
+/// From now on, so many threads, from 1 to 256 with the calling one, share what a call of the world or the
+/// game does for thousands of bodies at one time, as where all velocities change; 1, as at first: the calling
+/// thread alone. They call no function of yours, and the outcome is the same, bit for bit. Clones and
+/// restored worlds begin with 1. Errors: KS_ERROR_OUT_OF_RANGE, KS_ERROR_NO_THREADS, as World::use_workers().
+KS_API KS_MUST_CHECK ks_status ks_world_use_threads(ks_world world, int32_t threads);
 
 // Games: worlds that move their own bodies (kinesphere/game_world.hpp). The calls of worlds do with a game
 // what they do with others: a game is asked for no states, and takes no motions, runs and motion limits

@@ -29,6 +29,7 @@ names = {
     "ks_world_create": ("World::create", "World", "World"),
     "ks_world_clone": ("clone", "clone", "clone"),
     "ks_world_set_velocities": ("set_velocities", "set_velocity", "setVelocityAll"),
+    "ks_world_use_threads": ("use_workers", "use_threads", "none"),
     "ks_world_set_angular_velocity": ("change", "set_angular_velocity", "setAngularVelocity"),
     "ks_world_set_rotation": ("change", "set_rotation", "setRotation"),
     "ks_world_set_radius": ("change", "set_radius", "setRadius"),
@@ -97,7 +98,9 @@ wrappers = {
 }
 
 # Why a language lacks a call of C, and what does the same there.
-lacking: dict[tuple[str, str], str] = {}
+lacking: dict[tuple[str, str], str] = {
+    ("ks_world_use_threads", "JavaScript"): "Its module has one thread.",
+}
 
 
 @dataclass(frozen=True)

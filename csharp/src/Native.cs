@@ -379,6 +379,8 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_world_run(ulong world, double until, ref RunDefinition definition);
         [DllImport(library)]
+        public static extern int ks_world_use_threads(ulong world, int threads);
+        [DllImport(library)]
         public static extern int ks_game_definition_init(out GameDefinition definition, uint structSize);
         [DllImport(library)]
         public static extern int ks_game_create(ref WorldDefinition world, ref GameDefinition definition, out ulong game);

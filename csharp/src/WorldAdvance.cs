@@ -61,6 +61,11 @@ namespace Kinesphere
             Check(status);
         }
 
+        /// <summary>From now on, so many threads, from 1 to 256 with the calling one, share what a call does for thousands
+        /// of bodies at one time, as where all velocities change; 1, as at first: the calling thread alone. They call no
+        /// function of yours, and the outcome is the same, bit for bit. Clones and restored worlds begin with 1.</summary>
+        public void UseThreads(int threads) { Check(Native.ks_world_use_threads(handle, threads)); }
+
         static Native.Probe Callback(Probe probe, Caught caught)
         {
             return (bodies, count, time, states, user) => caught.Call(() =>

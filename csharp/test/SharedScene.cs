@@ -230,6 +230,8 @@ static class SharedScene
         definition.SetBox(new Vector(0, 0, 0), new Vector(20, 20, 20));
         using (var world = new World(definition))
         {
+            world.UseThreads(threads);
+            RequireStatus("out_of_range", () => world.UseThreads(0));
             var like = BodyDefinition.Default;
             like.Radius = 0.5;
             Func<double, double, double, State[]> at = (x, y, speed) =>

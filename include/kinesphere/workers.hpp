@@ -1,4 +1,5 @@
-// Workers of World::run(): threads of the library, or the task system of a program that has one.
+// Workers of a world, of runs and of queries: threads of the library, or the task system of a program that
+// has one.
 #pragma once
 
 #include <cstddef>
@@ -27,9 +28,9 @@ struct TaskSystem {
   void* user_context = nullptr;
 };
 
-/// Serves one run() at a time, of any world; another run() that starts meanwhile fails with workers_busy.
-/// Idle threads yield a hundred times while they look for work, and then sleep. In a run they share the calls
-/// of the probe for many bodies at one time, and nothing else.
+/// Serves one run() at a time, of any world; another run() that starts meanwhile fails with workers_busy, and
+/// calls of a world that uses them (World::use_workers()) do without them. Idle threads yield a hundred times
+/// while they look for work, and then sleep.
 class Workers {
  public:
   class Pool;  ///< of the library

@@ -131,9 +131,9 @@ class Workers;
 ///   - a moved-from world answers every call with moved_from, or throws BadResult where a call returns no
 ///     Result (result.hpp says which calls return errors and which throw).
 ///
-/// Threads. One thread at a time may use a world; run() may use further threads (Workers). Const calls may
-/// run concurrently with other const calls of the same world if its pair filter may be called concurrently.
-/// Different worlds, including clones, are independent.
+/// Threads. One thread at a time may use a world; run() and use_workers() may use further threads (Workers).
+/// Const calls may run concurrently with other const calls of the same world if its pair filter may be called
+/// concurrently. Different worlds, including clones, are independent.
 ///
 /// Lifetimes. References that a world returns (definition(), counters(), sensor()) stay valid until the
 /// world is destroyed or assigned to; the referenced values change as the world advances. The reference
@@ -391,9 +391,10 @@ class World {
   ///   - An event at which the sink threw has been responded to and counts as delivered.
   ///
   /// Workers (workers.hpp) with several threads share the calls of the motion source for 1,024 bodies or more
-  /// at one time, as where many bodies have arrived. All else is done by this thread, so they make hardly any
-  /// run faster. The outcome is the same, bit for bit, for any number of threads. While the world is recorded
-  /// or profiled, or has a rotation probe, this thread does all.
+  /// at one time, as where many bodies have arrived, and what follows from the answers. All else is done by
+  /// this thread, so they make hardly any run faster; use_workers() shares more. The outcome is the same, bit
+  /// for bit, for any number of threads. While the world is recorded or profiled, or has a rotation probe,
+  /// this thread calls the motion source.
   ///
   /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity or an action in a
   /// response, those of set_velocity() or sleep() and, for the second body of an event without one,
@@ -407,6 +408,21 @@ class World {
   /// `until`. Then all is as if the sink had thrown ("Interruptions"): at an event whose response has
   /// Response::stop the world stands at that event. No effect outside the sink.
   void end_run();
+
+  /// From now on, the threads of these workers share what is to be done for thousands of bodies at one time,
+  /// in whichever call: set_velocities() for 4,096 bodies or more, and in the next advance their reports and
+  /// certificates, as those of bodies that have just been added. Less than that, and all events, are left to
+  /// the calling thread, and so is a call that finds the workers at work elsewhere. nullptr, as at first: the
+  /// calling thread does all. The outcome is the same, bit for bit, for any number of threads.
+  ///
+  /// Only if `call_probe`, these threads share the calls of probes for 1,024 bodies or more, too, so that
+  /// several may run at one time; but not while the world is recorded or profiled, or has a rotation probe. A
+  /// pair filter is always called by the calling thread.
+  ///
+  /// The workers must stay where they are until the last call of the world, or until it is told otherwise.
+  /// Clones and restored worlds have none. Errors: probe_in_progress, filter_in_progress, run_in_progress.
+  /// Cost: O(1).
+  Result<void> use_workers(Workers* workers, bool call_probe = false);
 
   /// Return the current time, the number of bodies that have not been removed, and the definition.
   double time() const;
@@ -504,6 +520,7 @@ class World {
   WorldEditor changing(const Change& change);
   Result<std::optional<Event>> engine_advance(double until, const Probe& probe);
   Result<std::optional<Event>> recorded_advance(double until, const Probe& probe);
+  bool may_probe_on_threads() const;
   Result<std::optional<Event>> timed_advance(double until, const Probe& probe);
   /// Probes those of the bodies `numbers` whose reports are older than the current time, for calls that
   /// probe outside advance(). Returns true if there were any.

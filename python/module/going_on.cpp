@@ -1,4 +1,5 @@
 // Advances a world event by event, or by itself.
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -291,8 +292,9 @@ void bind_going_on(py::module_& module, WorldClass& world) {
       .def("__repr__", [](const EventIterator& events) {
         return py::str("<EventIterator until {}>").format(events.until());
       });
-  py::class_<Workers>(module, "Workers",
-                      R"(Threads that runs may use, for those who run often: threads in all, 1 to 256.
+  py::class_<Workers>(
+      module, "Workers",
+      R"(Threads that runs and worlds may use, for those who run often: threads in all, 1 to 256.
 
 They work for one run at a time.)")
       .def(py::init([](int threads) { return Workers::create(threads).value(); }), py::arg("threads"))
@@ -316,6 +318,19 @@ argument and body, is dropped, and the call may be repeated. The same holds when
 
 In the loop bodies may be changed, added and removed. When it has run to its end, world.time == until; when
 it is left early, the world stands at the last event. Each step is an advance().)")
+      .def(
+          "use_threads",
+          [](WorldHandle& handle, const py::object& threads) {
+            const auto turn = handle.take("use_threads");
+            auto shared = std::make_unique<Threads>(threads);
+            require(handle.world.use_workers(shared->workers()));
+            handle.threads = std::move(shared);
+          },
+          py::arg("threads"),
+          R"(From now on, so many threads, or Workers, share what a call does for thousands of bodies at one time.
+
+That is so where all velocities change, and where many bodies arrive. 1, as at first: the calling thread alone. They
+call no function of yours, and the outcome is the same, bit for bit. Clones and restored worlds begin with 1.)")
       .def("run", run, py::arg("until"), py::arg("motion"), py::arg("respond") = py::none(), py::kw_only(),
            py::arg("sink") = py::none(), py::arg("at_stop") = py::none(), py::arg("threads") = 1,
            py::arg("progress") = py::none(), py::arg("events") = "all",

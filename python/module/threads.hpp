@@ -14,7 +14,7 @@ namespace py = pybind11;
 /// Threads: a number, or an existing Workers object.
 class Threads {
  public:
-  explicit Threads(const py::object& given) {
+  explicit Threads(const py::object& given) : given_(given) {
     if (py::isinstance<Workers>(given)) {
       workers_ = &given.cast<Workers&>();
     } else if (given.cast<int>() != 1) {
@@ -25,6 +25,7 @@ class Threads {
   Workers* workers() { return workers_; }
 
  private:
+  py::object given_;
   std::optional<Workers> own_;
   Workers* workers_ = nullptr;
 };

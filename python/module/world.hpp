@@ -15,6 +15,7 @@
 #include "kinesphere/game_world.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "simulation/scene/scene.hpp"
+#include "threads.hpp"
 
 namespace kinesphere::python {
 
@@ -39,6 +40,8 @@ struct WorldHandle {
   /// Set while there is a pair filter.
   std::shared_ptr<FilterTrouble> filter_trouble{};
   bool has_rotation_probe = false;
+  /// Those of use_threads().
+  std::unique_ptr<Threads> threads{};
   bool warned_of_hops = false;
   bool warned_of_jams = false;
   /// The first broken promise until the caller has been warned of it.

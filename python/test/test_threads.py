@@ -46,6 +46,40 @@ def test_threads_share_the_work_with_the_same_outcome() -> None:
         world.run(2.0, motion, threads=0)
 
 
+def steer(threads: int | ks.Workers | None) -> list[object]:
+    """What a crowd meets whose velocities all change in each of four frames."""
+    bodies = 5000
+    random = np.random.default_rng(1)
+    positions = np.stack(np.unravel_index(np.arange(bodies), (18, 18, 18)), axis=-1).astype(float)
+    velocities = np.zeros((bodies, 3))
+    began = 0.0
+
+    def probe(ids: Ids, time: float) -> tuple[Doubles, Doubles]:
+        return positions[ids] + velocities[ids] * (time - began), velocities[ids]
+
+    world = ks.World()
+    if threads is not None:
+        world.use_threads(threads)
+    ids = world.add(0.4, positions)
+    told: list[object] = []
+    for frame in range(1, 5):
+        velocities = random.uniform(-5.0, 5.0, (bodies, 3))
+        world.set_velocity(ids, velocities)
+        told.extend((event.time, event.first, event.second) for event in world.events(frame / 60.0, probe))
+        positions, began = positions + velocities * (world.time - began), world.time
+    return told
+
+
+def test_threads_share_what_a_world_does_for_many_bodies() -> None:
+    expected = steer(None)
+    assert len(expected) > 100
+    shared: list[int | ks.Workers] = [1, 2, ks.Workers(3)]
+    for threads in shared:
+        assert steer(threads) == expected
+    with pytest.raises(ks.InvalidValue, match="threads"):
+        ks.World().use_threads(0)
+
+
 def test_the_gil_is_released_and_another_thread_is_refused() -> None:
     world, motion, scene = busy(2000, packing=0.05)
     outcome: list[object] = []

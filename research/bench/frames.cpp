@@ -107,14 +107,17 @@ double median_frame(std::vector<double> seconds) { return FrameCosts(std::move(s
 
 /// Adds a row of a crowd in which all velocities change in each frame.
 void add_steered(ResultTable& table, std::uint32_t bodies, int dimensions, std::uint32_t frames) {
-  const SteeringSettings settings{
+  SteeringSettings settings{
       .bodies = bodies, .dimensions = dimensions, .packing = dimensions == 3 ? 0.03 : 0.1, .frames = frames};
   const double grid = median_frame(steer_grid(settings).seconds);
   const double velocities = median_frame(steer_world(settings, SteeringBy::velocities).seconds);
   const double pushed = median_frame(steer_world(settings, SteeringBy::frames).seconds);
   const double game = median_frame(steer_world(settings, SteeringBy::game).seconds);
+  const double wall = median_frame(steer_world(settings, SteeringBy::velocities).wall_seconds);
+  settings.threads = 2;
+  const double wall_of_two = median_frame(steer_world(settings, SteeringBy::velocities).wall_seconds);
   table.row({std::uint64_t{bodies}, std::to_string(dimensions), 1e3 * grid, 1e3 * velocities, 1e3 * pushed,
-             1e3 * game, velocities / grid, pushed / grid, game / velocities});
+             1e3 * game, velocities / grid, pushed / grid, game / velocities, wall / wall_of_two});
 }
 
 void bench_frames(const BenchOptions& options, const Report& report) {
@@ -140,9 +143,9 @@ void bench_frames(const BenchOptions& options, const Report& report) {
   report.note(
       "All velocities change in each frame (\"steered\"): CPU time of a median frame, in ms, of the world by "
       "set_velocities(), by push() and as a GameWorld, and of a uniform grid that looks at the end of each "
-      "frame only.");
+      "frame only; and how many times faster two threads are than one, by the wall.");
   ResultTable steered({"n", "dimensions", "grid", "velocities", "push", "game", "velocities_to_grid",
-                       "push_to_grid", "game_to_velocities"});
+                       "push_to_grid", "game_to_velocities", "two_threads"});
   for (const int dimensions : {2, 3})
     for (const std::uint32_t bodies : settings.bodies)
       add_steered(steered, bodies, dimensions, settings.first_frames);

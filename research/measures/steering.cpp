@@ -1,12 +1,14 @@
 #include "research/measures/steering.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 
 #include "kinesphere/body_map.hpp"
 #include "kinesphere/game_world.hpp"
 #include "kinesphere/motion/frame_motion.hpp"
+#include "kinesphere/workers.hpp"
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {
@@ -15,6 +17,9 @@ namespace {
 
 constexpr double radius = 0.5, frames_per_second = 60.0;
 
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// The crowd in its room, which keeps it in by itself.
@@ -90,7 +95,9 @@ std::vector<BodyDefinition> bodies_of(const Crowd& crowd) {
   return bodies;
 }
 
-SteeredFrames steer_by_velocities(Crowd& crowd, World& world, std::uint32_t frames) {
+SteeredFrames steer_by_velocities(Crowd& crowd, World& world, std::uint32_t frames, int threads) {
+  Workers workers = Workers::create(threads).value();
+  world.use_workers(&workers, true).value();
   const std::vector<BodyId> ids = world.add_all(bodies_of(crowd)).value();
   double began = 0.0;
   const Probe probe = [&](std::span<const BodyId> asked, double time, std::span<State> states) {
@@ -103,10 +110,11 @@ SteeredFrames steer_by_velocities(Crowd& crowd, World& world, std::uint32_t fram
   listen(world, 0.0, probe, steered);
   for (std::uint32_t frame = 1; frame <= frames; ++frame) {
     crowd.steer();
-    const double begin = cpu_seconds();
+    const double begin = cpu_seconds(), wall_begin = wall_seconds();
     world.set_velocities(ids, crowd.velocities()).value();
     listen(world, frame / frames_per_second, probe, steered);
     steered.seconds.push_back(cpu_seconds() - begin);
+    steered.wall_seconds.push_back(wall_seconds() - wall_begin);
     crowd.move();
     began = world.time();
   }
@@ -157,10 +165,11 @@ SteeredFrames steer_world(const SteeringSettings& settings, SteeringBy by) {
   steering::Crowd crowd(settings);
   const WorldDefinition definition{.dimensions = settings.dimensions, .contacts = ContactEvents::impacts};
   World world = World::create(definition).value();
-  SteeredFrames steered =
-      by == SteeringBy::velocities ? steering::steer_by_velocities(crowd, world, settings.frames)
-      : by == SteeringBy::frames   ? steering::steer_by_frames(crowd, world, settings.frames)
-                                   : steering::steer_game(crowd, definition, settings.frames);
+  SteeredFrames steered = by == SteeringBy::velocities
+                              ? steering::steer_by_velocities(crowd, world, settings.frames, settings.threads)
+                          : by == SteeringBy::frames
+                              ? steering::steer_by_frames(crowd, world, settings.frames)
+                              : steering::steer_game(crowd, definition, settings.frames);
   steering::keep_each_once(steered.pairs);
   return steered;
 }

@@ -19,6 +19,7 @@ struct SteeringSettings {
   double packing = 0.03;          ///< part of the room (its area, its volume) that they fill
   std::uint32_t frames = 60;      ///< 60 in a unit of time
   std::uint64_t seed = 1;
+  int threads = 1;  ///< of the world, if it is steered by World::set_velocities(); they share the probe, too
 };
 
 /// How the news of a frame reaches the world.
@@ -29,7 +30,8 @@ enum class SteeringBy : std::uint8_t {
 };
 
 struct SteeredFrames {
-  std::vector<double> seconds{};  ///< CPU time of each frame, without that of the crowd itself
+  std::vector<double> seconds{};       ///< CPU time of each frame, without that of the crowd itself
+  std::vector<double> wall_seconds{};  ///< of each frame by the wall, where SteeringSettings::threads counts
   /// Those that met at some time, each pair once and in ascending order.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs{};
 };

@@ -168,7 +168,8 @@ class FixedStep final : public Detector {
     const Sphere first = sphere(a);
     const Sphere second = sphere(b);
     const Event event = contact_event(EventKind::contact_begin, time_, first, second);
-    judge(event, approach_error(event, first, second));
+    const ContactTerms terms = terms_of(event, first, second);
+    judge(event, approach_error(event, terms.arm, terms.rates));
   }
 
   void look_at_wall(std::uint32_t number, Wall wall) {

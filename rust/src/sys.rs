@@ -922,6 +922,7 @@ extern "C" {
     pub fn ks_world_advance(world: ks_world, until: f64, probe: Option<ks_probe>, user: *mut c_void, event: *mut ks_event) -> ks_status;
     pub fn ks_run_definition_init(definition: *mut ks_run_definition, struct_size: u32) -> ks_status;
     pub fn ks_world_run(world: ks_world, until: f64, definition: *const ks_run_definition) -> ks_status;
+    pub fn ks_world_use_threads(world: ks_world, threads: i32) -> ks_status;
     pub fn ks_game_definition_init(definition: *mut ks_game_definition, struct_size: u32) -> ks_status;
     pub fn ks_game_create(world: *const ks_world_definition, definition: *const ks_game_definition, game: *mut ks_world) -> ks_status;
     pub fn ks_game_restore(bytes: *const u8, count: usize, definition: *const ks_game_definition, filter: Option<ks_pair_filter>, user: *mut c_void, game: *mut ks_world) -> ks_status;

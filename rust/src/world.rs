@@ -596,6 +596,13 @@ impl World {
         self.check(status)
     }
 
+    /// From now on, so many threads, from 1 to 256 with the calling one, share what a call does for thousands of bodies
+    /// at one time, as where all velocities change; 1, as at first: the calling thread alone. They call no function of
+    /// yours, and the outcome is the same, bit for bit. Clones and restored worlds begin with 1.
+    pub fn use_threads(&mut self, threads: i32) -> Result<()> {
+        self.check(unsafe { sys::ks_world_use_threads(self.handle, threads) })
+    }
+
     /// Adds bodies that the library moves; their other properties are those of `like`. `radii` and `masses` are empty
     /// or have one entry for each state. Returns the number of the motion in this world, and the ids.
     ///

@@ -274,6 +274,8 @@ fn responses_remove_disable_put_to_sleep_and_stop() {
     let play = |threads| {
         let bounds = Some(Box3 { lower: Vec3::default(), upper: Vec3::new(20.0, 20.0, 20.0) });
         let mut world = World::new(&WorldDefinition { bounds, ..Default::default() }).unwrap();
+        world.use_threads(threads).unwrap();
+        assert_eq!(world.use_threads(0).unwrap_err().name, "out_of_range");
         let start = [at(1.0, 5.0, 4.0), at(8.0, 5.0, 0.0), at(1.0, 9.0, 1.0), at(8.0, 9.0, 0.0)];
         let (motion, mut ids) = world.add_motion(ballistic, &start[..1], &[], &[], &like(BULLET)).unwrap();
         for k in 1..4 {

@@ -86,12 +86,6 @@ void Bodies::forget_change(std::uint32_t number) {
   changes.remove(table_, number);
 }
 
-void Bodies::release_change(std::uint32_t number) {
-  if (table_[number].change_number == Body::none) return;
-  take_velocity_error(number);
-  changes.release(table_[number]);
-}
-
 /// A radius that changes has the velocity error beside the bound, which holds both.
 void Bodies::take_velocity_error(std::uint32_t number) {
   if (ChangingRadius* const changing = radii.find(number))
@@ -113,12 +107,6 @@ void Bodies::set_solid(std::uint32_t number, bool solid) {
 bool Bodies::filters_allow(std::uint32_t a, std::uint32_t b) const {
   return !(table_[a].is_static() && table_[b].is_static()) &&
          filters.may_meet(id_of(a), filters.of(a), id_of(b), filters.of(b));
-}
-
-Change& Bodies::change_of(std::uint32_t number) {
-  Body& body = table_[number];
-  if (changes.find(body)) return changes[body];
-  return changes.add(body, {number, std::nullopt, limits_of(number)});
 }
 
 void Bodies::wrap_to_primary(std::uint32_t number, double now) {

@@ -73,13 +73,37 @@ class Bodies {
   }
   void set_solid(std::uint32_t number, bool solid);
   /// Returns the pending change of the body, and creates it if there is none.
-  Change& change_of(std::uint32_t number);
+  Change& change_of(std::uint32_t number) {
+    Body& body = table_[number];
+    return body.change_number != Body::none ? changes[body] : give_change(number, changes.extend(1));
+  }
+  /// Gives a body that has none its pending change, at this place (SideTable::extend()). Threads may call it
+  /// for different bodies.
+  Change& give_change(std::uint32_t number, std::size_t place) {
+    Body& body = table_[number];
+    Change& change = changes.give(body, number, place);
+    // Field by field: a record that is made elsewhere and copied would wait for its own stores.
+    if (const SleepRecord* const record = sleep_records.find(body)) {
+      change.limits = record->limits;
+      return change;
+    }
+    change.limits.acceleration_limit = body.bound.acceleration_limit;
+    change.limits.planned_acceleration = body.bound.planned_acceleration;
+    change.limits.position_error = body.position_error;
+    change.limits.velocity_error = velocity_error(number);
+    return change;
+  }
   /// Removes the pending change: it has taken effect, or the body is being removed.
   void forget_change(std::uint32_t number);
-  /// Removes the pending changes of many bodies: of each, and then all of these. Threads may call the first
-  /// for different bodies.
-  void release_change(std::uint32_t number);
-  void drop_released_changes() { changes.drop_released(table_); }
+  /// Removes the pending changes of many bodies: of each, and then all of these, so many. The first returns
+  /// false if there is none; threads may call it for different bodies.
+  bool release_change(std::uint32_t number) {
+    if (table_[number].change_number == Body::none) return false;
+    if (radii.any()) take_velocity_error(number);
+    changes.release(table_[number]);
+    return true;
+  }
+  void drop_released_changes(std::size_t released) { changes.drop_released(table_, released); }
 
   // Radii that change with time. Body::radius is that at the last report.
   /// Returns the radius that the body has at time `now`.

@@ -21,13 +21,21 @@ class SideTable {
   const Record* find(const Body& body) const {
     return body.*index == Body::none ? nullptr : &records_[body.*index];
   }
-  /// Precondition: the body has no record.
-  Record& add(Body& body, const Record& record) {
-    assert(body.*index == Body::none);
-    body.*index = static_cast<std::uint32_t>(records_.size());
-    return records_.emplace_back(record);
-  }
+  /// Gives the body a record with default fields. Precondition: it has none.
+  Record& add(Body& body, std::uint32_t number) { return give(body, number, extend(1)); }
   Record& operator[](const Body& body) { return records_[body.*index]; }
+  /// Makes room for so many records at once, with default fields. Returns the index of the first. give() has
+  /// to follow for each. Threads may call it for different bodies.
+  std::size_t extend(std::size_t more) {
+    records_.resize(records_.size() + more);
+    return records_.size() - more;
+  }
+  Record& give(Body& body, std::uint32_t number, std::size_t place) {
+    assert(body.*index == Body::none);
+    body.*index = static_cast<std::uint32_t>(place);
+    records_[place].body = number;
+    return records_[place];
+  }
   /// Removes the record of the body, if there is one. The last record takes its index. `bodies` contains the
   /// bodies of all records, by number.
   template <class Numbered>
@@ -45,9 +53,11 @@ class SideTable {
     records_[body.*index].body = Body::none;
     body.*index = Body::none;
   }
-  /// Removes the records that bodies have released. Cost: O(records).
+  /// Removes the records that bodies have released: so many. Cost: O(records), or O(1) if these are all.
   template <class Numbered>
-  void drop_released(Numbered& bodies) {
+  void drop_released(Numbered& bodies, std::size_t released) {
+    if (released == records_.size()) return records_.clear();
+    if (released == 0) return;
     std::uint32_t kept = 0;
     for (const Record& record : records_) {
       if (record.body == Body::none) continue;

@@ -87,7 +87,7 @@ void ContactGraph::set_overlap(std::uint32_t body, std::uint32_t partner, const 
   }
 }
 
-void ContactGraph::turn_reported(std::uint32_t body) {
+void ContactGraph::turn_approaches(std::uint32_t body) {
   if (flags_[body].walls != 0) {
     for (const Wall wall : walls) {
       ContactState state = wall_state(body, wall);
@@ -96,9 +96,8 @@ void ContactGraph::turn_reported(std::uint32_t body) {
       set_wall_state(body, wall, true, state);
     }
   }
-  if (body >= partners_.size()) return;
-  for (const ContactRecord& record : std::as_const(partners_[body]).all()) {
-    ContactState state = *contact_of(body, record.partner);
+  for (const ContactRecord& record : partners_of(body)) {
+    ContactState state = flags_[body].is_static() ? *contact_of(body, record.partner) : record.state;
     if (state.approach != ApproachState::reported) continue;
     state.approach = ApproachState::turned;
     set_half(body, record.partner, &state);

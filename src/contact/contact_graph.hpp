@@ -110,7 +110,10 @@ class ContactGraph {
   void set_state(const Event& contact, const ContactState& state);
   /// Marks all reported approaches of a body as turned, because the caller has given it another velocity,
   /// place or shape.
-  void turn_reported(std::uint32_t body);
+  void turn_reported(std::uint32_t body) {
+    if (touches_any(body)) turn_approaches(body);
+  }
+  bool touches_any(std::uint32_t body) const { return flags_[body].walls != 0 || !partners_of(body).empty(); }
 
   // Begins of contacts.
 
@@ -166,6 +169,7 @@ class ContactGraph {
     if (flags_[a].is_static()) std::swap(a, b);
     return a < partners_.size() ? partners_[a].find(b) : nullptr;
   }
+  void turn_approaches(std::uint32_t body);
   ContactState wall_state(std::uint32_t body, Wall wall) const;
   void set_wall_state(std::uint32_t body, Wall wall, bool touching, const ContactState& state);
   void set_half(std::uint32_t body, std::uint32_t partner, const ContactState* state);

@@ -16,6 +16,7 @@ constexpr std::size_t crowd = 32;
 
 /// Gives those of the changed balls that have arrived their first safe regions and their neighbours.
 void Core::place_arrivals(std::span<const std::uint32_t> changed, Host& host) {
+  if (arriving_ == 0) return;
   std::vector<Arrival> arrivals;
   for (const std::uint32_t number : changed)
     if (balls_[number].is(Ball::arriving)) arrivals.push_back({number, balls_[number].position});
@@ -30,6 +31,7 @@ void Core::place_arrivals(std::span<const std::uint32_t> changed, Host& host) {
   for (const std::uint32_t number : changed) {
     if (!balls_[number].is(Ball::arriving)) continue;
     balls_[number].set(Ball::arriving, false);
+    --arriving_;
     find_neighbours(number, host);
     join_crowd(number, host);
   }

@@ -80,6 +80,15 @@ class Balls {
     }
     return {centre, velocity, plan, ball.radius + growth, speed, limit};
   }
+  /// What concerns all pairs now, for near_lanes.hpp. It holds until a ball enters or the clock advances.
+  PairQuery pair_query(double margin, double near) const {
+    return {.now = now_,
+            .margin = margin,
+            .near = near,
+            .grows = grows_,
+            .drifts = drifts(),
+            .periods = &periods_};
+  }
   Drift drift(std::uint32_t number) const { return drifts_.empty() ? Drift() : drifts_[number]; }
   /// Adopts a ball of others, at the same time.
   void adopt(std::uint32_t number, const Ball& ball, const Drift& drift) {

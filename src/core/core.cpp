@@ -55,6 +55,7 @@ void Core::enter(std::uint32_t number, const Bound& bound, bool is_passive, bool
   if (!is_passive) ball.list = lists_.add();
   balls_.set_bound(number, bound);
   ++present_;
+  ++arriving_;
 }
 
 void Core::show(std::uint32_t number) {
@@ -64,6 +65,7 @@ void Core::show(std::uint32_t number) {
 
 void Core::leave(std::uint32_t number) {
   Ball& ball = balls_[number];
+  if (ball.is(Ball::arriving)) --arriving_;
   forget_neighbours(number);
   if (!ball.is(Ball::passive)) lists_.remove(ball.list);
   if (ball.has_region()) cells_.leave(balls_, number);
@@ -81,21 +83,24 @@ void Core::set_bound(std::uint32_t number, const Bound& bound) {
   note_course(number);
 }
 
-void Core::settle(std::span<const std::uint32_t> changed, Host& host) {
+void Core::settle(std::span<const std::uint32_t> changed, Host& host, PoolLease& lease) {
   settling_.assign(changed.begin(), changed.end());
   place_arrivals(changed, host);
-  for (const std::uint32_t number : changed) {
-    set_own(number, stays(number), host);
-    // It may be elsewhere. Others find it by its safe region.
-    if (balls_[number].is(Ball::at_wall) || balls_[number].own > balls_.time()) continue;
-    move_region(number, host);
-  }
-  for (const std::uint32_t number : settling_)
-    if (!balls_[number].is(Ball::passive)) note_change(number, host);
+  if (is_batch(changed))
+    set_own_of_many(changed, host, lease);
+  else
+    for (const std::uint32_t number : changed) {
+      set_own(number, stays(number), host);
+      if (may_be_elsewhere(number)) move_region(number, host);
+    }
+  note_changes(settling_, host, lease);
   // For many more balls than before, the queue is made anew.
   const bool are_many_more = balls_.size() > 2 * queued_for_;
   if (are_many_more) queue_.forget();
-  for (const std::uint32_t number : settling_) schedule(number, false, host);
+  if (is_batch(settling_))
+    schedule_many(settling_, host, lease);
+  else
+    for (const std::uint32_t number : settling_) schedule(number, false, host);
   if (!are_many_more) return;
   queue_.refill(balls_.all(), balls_.time());
   queued_for_ = balls_.size();

@@ -9,8 +9,9 @@
 //      the two never have to do with each other (Host::keep_partners()). A ball that never moves, a passive
 //      one, has no list: it is in those of others.
 //   D  Of two neighbours, the one whose velocity or safe region has changed last looks out for the other: it
-//      has computed Ball::due since, and the two do not touch before it. No ball is due after its own time.
-//      A ball in exact flight that stays in its safe region for longer than it knew has changed, too.
+//      has computed Ball::due since, and the two do not touch before it. Of two that have changed together,
+//      it is the one with the higher number. No ball is due after its own time. A ball in exact flight that
+//      stays in its safe region for longer than it knew has changed, too.
 //
 // By H, two balls that touch are in safe regions within reach of each other, or one of the two is due. By N
 // they are neighbours then, and by D one of the two is due no later than they touch.
@@ -47,6 +48,7 @@
 #include "core/stay_counts.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/world_definition.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace kinesphere::core {
 
@@ -88,8 +90,9 @@ class Core {
         static_cast<std::uint8_t>(touches_walls ? ball.walls | Ball::at_walls : ball.walls & ~Ball::at_walls);
   }
   /// Restores the invariants, which hold but for these balls: they have arrived, or move in another way, or
-  /// what they are to others has changed. Cost: one scan for each.
-  void settle(std::span<const std::uint32_t> changed, Host& host);
+  /// what they are to others has changed. The threads of the lease share what concerns many. Cost: one scan
+  /// for each.
+  void settle(std::span<const std::uint32_t> changed, Host& host, PoolLease& lease);
 
   /// Returns when something is due next; infinity if that is later than `until`.
   double next_due(double until) { return queue_.first(balls_.all(), until).time; }
@@ -193,13 +196,59 @@ class Core {
   double holds_until(std::uint32_t number, std::uint32_t other) const;
   void prefetch() const;
 
+  /// A changed ball may be elsewhere than in its safe region, by which others find it.
+  bool may_be_elsewhere(std::uint32_t number) const {
+    return !balls_[number].is(Ball::at_wall) && !(balls_[number].own > balls_.time());
+  }
+
+  // batch.cpp
+  /// A ball and one that it looks out for, which it may meet but not for the time `apart` from now.
+  struct Meeting {
+    std::uint32_t ball, other;
+    double apart;
+  };
+  /// What a thread finds out about a part of a batch, and its memory, to reuse.
+  struct Part {
+    std::vector<std::uint32_t> first, second;  ///< pairs of some balls
+    std::vector<double> apart;
+    std::vector<Meeting> undecided;
+    std::vector<std::uint32_t> leaving;  ///< those that may be elsewhere than in their safe regions
+    std::vector<std::uint32_t> near;     ///< those that may be in touch
+    std::vector<std::uint32_t> linked;
+    std::vector<std::uint32_t> queued;  ///< those that the queue has to enter
+    Counters work;
+  };
+  bool is_batch(std::span<const std::uint32_t> changed) const;
+  void for_each_part(std::span<const std::uint32_t> changed, PoolLease& lease, auto work);
+  void set_own_of_many(std::span<const std::uint32_t> changed, Host& host, PoolLease& lease);
+  void set_own_of_some(std::span<const std::uint32_t> some, Part& part, Host& host);
+  void note_changes(std::span<const std::uint32_t> changed, Host& host, PoolLease& lease);
+  void schedule_many(std::span<const std::uint32_t> changed, Host& host, PoolLease& lease);
+  std::size_t list_pairs(std::span<const std::uint32_t> some, Part& part);
+  void find_due_of(std::span<const std::uint32_t> some, Part& part);
+  void ask_host(Part& part, Host& host);
+
   // scan.cpp
   void note_change(std::uint32_t number, Host& host);
   void schedule(std::uint32_t number, bool is_last, Host& host);
+  void find_due(std::uint32_t number, bool is_last, Host& host);
+  static void begin_scan(Ball& ball);
+  void find_linked(std::uint32_t number, std::vector<std::uint32_t>& linked, Host& host) const;
+  [[nodiscard]] bool look_out_for(std::uint32_t number, std::uint32_t other, double apart,
+                                  std::span<const std::uint32_t> linked, Counters& work, Host& host);
+  void look_out_for_linked(std::uint32_t number, std::span<const std::uint32_t> linked, Counters& work,
+                           Host& host);
+  /// Returns true if of two neighbours the first one looks out for the other: it has changed last.
+  bool looks_out_for(std::uint32_t number, std::uint32_t other) const {
+    const std::uint64_t own = changes_[number], change = changes_[other];
+    // Without a branch, which nobody can predict.
+    return (change < own) | ((change == own) & (other < number));
+  }
   std::span<const std::uint32_t> looked_out_for(std::uint32_t number,
                                                 std::span<const std::uint32_t> neighbours,
                                                 std::span<std::uint32_t> room) const;
   void consider(Ball& ball, std::uint32_t other, double time);
+  PairQuery pair_query() const;
   std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours, double duration,
                            std::span<double, most_lanes> apart) const;
   double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const;
@@ -262,17 +311,20 @@ class Core {
   NeighbourLists lists_;
   RegionCells cells_;
   DueQueue queue_;
-  /// By number: of two neighbours, the one that has changed last has the larger value. 0 for passive ones.
+  /// By number: of two neighbours, the one that has changed last has the larger value; those that have
+  /// changed together may have the same one. 0 for passive ones.
   std::vector<std::uint64_t> changes_;
   Ghosts* ghosts_ = nullptr;    ///< nullptr where each ball is the world's own
   double first_radius_ = 0.0;   ///< of the first safe region of a ball that arrives alone (length)
   Saved saved_;                 ///< from a snapshot, until rebuild()
   std::size_t present_ = 0;     ///< how many balls there are
+  std::size_t arriving_ = 0;    ///< how many of them are arriving
   std::size_t measured_ = 0;    ///< how many there were when first_radius_ was chosen
   std::size_t queued_for_ = 0;  ///< how many numbers there were when the queue was filled
   // Members only to reuse their memory.
   RegionSearch search_;
-  std::vector<std::uint32_t> gone_, new_, settling_;
+  std::vector<std::uint32_t> gone_, new_, settling_, linked_;
+  std::vector<Part> parts_;
 };
 
 }  // namespace kinesphere::core

@@ -10,18 +10,6 @@
 #include "number/infinity.hpp"
 
 namespace kinesphere::core {
-namespace {
-
-/// Numbers of buckets beyond this are not told apart.
-constexpr double last_bucket = 0x1p62;
-
-}  // namespace
-
-std::uint64_t DueQueue::bucket_of(double time) const {
-  const double place = (time - origin_) * by_width_;
-  if (!(place > 0.0)) return 0;
-  return static_cast<std::uint64_t>(std::min(place, last_bucket));
-}
 
 void DueQueue::push(std::span<const Ball> balls, std::uint32_t ball) {
   const double time = balls[ball].due;
@@ -34,17 +22,29 @@ void DueQueue::push(std::span<const Ball> balls, std::uint32_t ball) {
     present_.insert(std::lower_bound(present_.begin(), present_.end(), entry, later), entry);
     return;
   }
-  // An entry in an earlier bucket, or in this one, will do.
-  const std::uint32_t known = entry_of_[ball];
-  const bool is_far = bucket - bucket_ >= heads_.size();
-  if (known != no_entry && (is_far || (known != far_entry && after_present(known) <= bucket - bucket_)))
-    return;
-  if (is_far) {
+  if (suffices(entry_of_[ball], bucket)) return;
+  if (is_far(bucket)) {
     entry_of_[ball] = far_entry;
     far_.push_back(ball);
   } else {
     put(bucket, ball);
   }
+}
+
+void DueQueue::push(std::span<const Ball> balls, std::span<const std::uint32_t> many) {
+  if (heads_.empty()) return;
+  const std::size_t sorted = present_.size();
+  // Buckets lie anywhere in memory: those of later balls are fetched meanwhile.
+  constexpr std::size_t ahead = 8;
+  for (std::size_t k = 0; k < many.size() + ahead; ++k) {
+    if (k < many.size()) {
+      const std::uint64_t bucket = bucket_of(balls[many[k]].due);
+      const std::uint32_t head = heads_[bucket & (heads_.size() - 1)];
+      if (head != none) prefetch_line(&chunks_[head]);
+    }
+    if (k >= ahead) push_unsorted(balls, many[k - ahead]);
+  }
+  if (present_.size() > sorted) sort_present();
 }
 
 void DueQueue::put(std::uint64_t bucket, std::uint32_t ball) {
@@ -90,6 +90,10 @@ void DueQueue::push_unsorted(std::span<const Ball> balls, std::uint32_t ball) {
     push(balls, ball);
 }
 
+void DueQueue::sort_present() {
+  std::sort(present_.begin(), present_.end(), [](const Entry& a, const Entry& b) { return b < a; });
+}
+
 /// Fetches the balls of a bucket.
 void DueQueue::prefetch(std::span<const Ball> balls, std::uint32_t head) const {
   for (std::uint32_t at = head; at != none; at = chunks_[at].next)
@@ -118,7 +122,7 @@ void DueQueue::open_next(std::span<const Ball> balls, double until) {
     }
     at = chunk.next;
   }
-  std::sort(present_.begin(), present_.end(), [](const Entry& a, const Entry& b) { return b < a; });
+  sort_present();
   if ((bucket_ & (heads_.size() / 2 - 1)) == 0 || stored_ == 0) take_far(balls, until);
   if (bucket_ - adapted_ >= 256) adapt(balls);
 }
@@ -189,7 +193,7 @@ void DueQueue::refill(std::span<const Ball> balls, double now) {
   for (std::uint32_t ball = 0; ball < balls.size(); ++ball) {
     if (balls[ball].has_region()) push_unsorted(balls, ball);
   }
-  std::sort(present_.begin(), present_.end(), [](const Entry& a, const Entry& b) { return b < a; });
+  sort_present();
 }
 
 std::size_t DueQueue::bytes() const {

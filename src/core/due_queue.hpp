@@ -8,8 +8,10 @@
 // time.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,6 +31,15 @@ class DueQueue {
 
   /// Enters a ball, which is due at Ball::due.
   void push(std::span<const Ball> balls, std::uint32_t ball);
+  /// Returns true if push() would change something. Threads may ask at the same time.
+  bool lacks(std::span<const Ball> balls, std::uint32_t ball) const {
+    const double time = balls[ball].due;
+    if (heads_.empty() || !(time < std::numeric_limits<double>::infinity())) return false;
+    const std::uint64_t bucket = bucket_of(time);
+    return bucket <= bucket_ || ball >= entry_of_.size() || !suffices(entry_of_[ball], bucket);
+  }
+  /// Enters many balls.
+  void push(std::span<const Ball> balls, std::span<const std::uint32_t> many);
   /// Returns the first entry, without taking it; one with an infinite time if there is none up to `until`.
   Entry first(std::span<const Ball> balls, double until);
   /// Takes the entry that first() has returned just now. Returns its ball.
@@ -55,11 +66,24 @@ class DueQueue {
     std::uint32_t next;
   };
   static constexpr double wanted = 16.0;  ///< balls due in a bucket
+  /// Numbers of buckets beyond this are not told apart.
+  static constexpr double last_bucket = 0x1p62;
 
   /// What entry_of_ has instead of the name of a bucket.
   static constexpr std::uint32_t no_entry = none, far_entry = none - 1;
 
-  std::uint64_t bucket_of(double time) const;
+  std::uint64_t bucket_of(double time) const {
+    const double place = (time - origin_) * by_width_;
+    if (!(place > 0.0)) return 0;
+    return static_cast<std::uint64_t>(std::min(place, last_bucket));
+  }
+  bool is_far(std::uint64_t bucket) const { return bucket - bucket_ >= heads_.size(); }
+  /// Returns true if a ball that is due in a later bucket than the present one needs no other entry: one in
+  /// an earlier bucket, or in this one, will do.
+  bool suffices(std::uint32_t known, std::uint64_t bucket) const {
+    return known != no_entry &&
+           (is_far(bucket) || (known != far_entry && after_present(known) <= bucket - bucket_));
+  }
   /// Name of a bucket of the ring: the low bits of its number.
   static std::uint32_t name_of(std::uint64_t bucket) {
     return static_cast<std::uint32_t>(bucket & 0x7fffffff);
@@ -67,6 +91,7 @@ class DueQueue {
   /// How many buckets after the present one a bucket of the ring is.
   std::uint64_t after_present(std::uint32_t name) const { return (name - name_of(bucket_)) & 0x7fffffff; }
   void push_unsorted(std::span<const Ball> balls, std::uint32_t ball);
+  void sort_present();
   void put(std::uint64_t bucket, std::uint32_t ball);
   void prefetch(std::span<const Ball> balls, std::uint32_t head) const;
   void open_next(std::span<const Ball> balls, double until);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "kinesphere/counters.hpp"
 #include "kinesphere/result.hpp"
@@ -16,10 +17,13 @@ namespace kinesphere::core {
 /// that time.
 class Host {
  public:
-  /// Returns those with which the ball is linked: it touches or senses them, or has been turned back at
-  /// its sensor distance from them. They concern it wherever they are, until the link ends. The result holds
-  /// until the next call.
-  virtual std::span<const std::uint32_t> linked_with(std::uint32_t ball) = 0;
+  /// Returns true if linked_with(), unchanged_until() and walls_unchanged_until() may be called by several
+  /// threads at a time.
+  virtual bool answers_threads() const = 0;
+  /// Sets `linked` to those with which the ball is linked, in ascending order: it touches or senses them, or
+  /// has been turned back at its sensor distance from them. They concern it wherever they are, until the link
+  /// ends.
+  virtual void linked_with(std::uint32_t ball, std::vector<std::uint32_t>& linked) = 0;
   /// Moves those of `others` that may ever have to do with the ball to the front, in the same order. Returns
   /// their number.
   virtual std::size_t keep_partners(std::uint32_t ball, std::span<std::uint32_t> others) = 0;

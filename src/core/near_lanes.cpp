@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <type_traits>
 
 #ifndef KINESPHERE_CORE_LANES_OF_MASK
 #define KINESPHERE_CORE_LANES_OF_MASK
@@ -126,6 +127,66 @@ HWY_INLINE std::uint32_t bits_of(D d, M mask) {
   return bits[0];
 }
 
+/// The balls of a group, or one ball in all lanes, at the present. `radius` includes the margin.
+struct Motions {
+  V x, y, z, u, v, w, radius, speed, growth;
+  Drifts<V> plan;
+};
+
+HWY_INLINE Motions motion_of(D d, const NearQuery& q) {
+  return {hn::Set(d, q.position.x),
+          hn::Set(d, q.position.y),
+          hn::Set(d, q.position.z),
+          hn::Set(d, q.velocity.x),
+          hn::Set(d, q.velocity.y),
+          hn::Set(d, q.velocity.z),
+          hn::Set(d, q.radius),
+          hn::Set(d, q.speed),
+          hn::Set(d, q.growth),
+          {hn::Set(d, q.plan.x), hn::Set(d, q.plan.y), hn::Set(d, q.plan.z), hn::Zero(d)}};
+}
+
+/// Moves balls on to the present, for a time `since` their reports.
+template <bool drifts>
+HWY_INLINE Drifts<V> move_on(D d, Neighbours<V>& b, V since, const Drift* all, const std::uint32_t* n) {
+  b.x = hn::Add(b.x, hn::Mul(b.u, since));
+  b.y = hn::Add(b.y, hn::Mul(b.v, since));
+  b.z = hn::Add(b.z, hn::Mul(b.w, since));
+  if constexpr (drifts) {
+    const Drifts<V> drift = load_drifts<V>(d, all, n);
+    const V squared = hn::Mul(hn::Mul(hn::Set(d, 0.5), since), since);
+    b.x = hn::Add(b.x, hn::Mul(drift.x, squared));
+    b.y = hn::Add(b.y, hn::Mul(drift.y, squared));
+    b.z = hn::Add(b.z, hn::Mul(drift.z, squared));
+    b.u = hn::Add(b.u, hn::Mul(drift.x, since));
+    b.v = hn::Add(b.v, hn::Mul(drift.y, since));
+    b.w = hn::Add(b.w, hn::Mul(drift.z, since));
+    return drift;
+  }
+  const V zero = hn::Zero(d);
+  return {zero, zero, zero, zero};
+}
+
+/// Returns the motions of a group of balls, as Core::candidates() gives that of one.
+template <bool grows, bool drifts>
+HWY_INLINE Motions motions_of(D d, const Ball* balls, const std::uint32_t* n, const PairQuery& q) {
+  Neighbours<V> b = load<V>(d, balls, n);
+  const V since = hn::Sub(hn::Set(d, q.now), b.time);
+  const Drifts<V> drift = move_on<drifts>(d, b, since, q.drifts, n);
+  V radius = b.radius, speed = hn::Zero(d), limit = speed;
+  if constexpr (grows) {
+    limit = limits<V>(d, balls, n);
+    speed = hn::Mul(limit, since);
+    V growth = hn::Mul(hn::Mul(hn::Mul(hn::Set(d, 0.5), limit), since), since);
+    if constexpr (drifts) {
+      growth = hn::Add(growth, hn::Mul(drift.growth_speed, since));
+      speed = hn::Add(speed, drift.growth_speed);
+    }
+    radius = hn::Add(radius, growth);
+  }
+  return {b.x, b.y, b.z, b.u, b.v, b.w, hn::Add(radius, hn::Set(d, q.margin)), speed, limit, drift};
+}
+
 /// The motion of a ball relative to those of a group, from the present on: the vector between the centres is
 /// X + V t after a time t, and the sum of the radii, with the margin, start + (rate + growth t) t. What
 /// different planned accelerations bend the way between the centres by counts as growth.
@@ -136,48 +197,36 @@ struct RelativeMotions {
   V passing;                  ///< |X x V|^2
 
   template <bool drifts, bool repeats>
-  HWY_INLINE static RelativeMotions of(D d, const Ball* balls, const std::uint32_t* n, const NearQuery& q) {
+  HWY_INLINE static RelativeMotions of(D d, const Motions& own, const Ball* balls, const std::uint32_t* n,
+                                       const PairQuery& q) {
     static_assert(grows || !drifts);
     Neighbours<V> b = load<V>(d, balls, n);
     const V since = hn::Sub(hn::Set(d, q.now), b.time), half = hn::Set(d, 0.5);
+    const Drifts<V> drift = move_on<drifts>(d, b, since, q.drifts, n);
     RelativeMotions m;
-    b.x = hn::Add(b.x, hn::Mul(b.u, since));
-    b.y = hn::Add(b.y, hn::Mul(b.v, since));
-    b.z = hn::Add(b.z, hn::Mul(b.w, since));
-    Drifts<V> drift;
-    if constexpr (drifts) {
-      drift = load_drifts<V>(d, q.drifts, n);
-      const V squared = hn::Mul(hn::Mul(half, since), since);
-      b.x = hn::Add(b.x, hn::Mul(drift.x, squared));
-      b.y = hn::Add(b.y, hn::Mul(drift.y, squared));
-      b.z = hn::Add(b.z, hn::Mul(drift.z, squared));
-      b.u = hn::Add(b.u, hn::Mul(drift.x, since));
-      b.v = hn::Add(b.v, hn::Mul(drift.y, since));
-      b.w = hn::Add(b.w, hn::Mul(drift.z, since));
-    }
-    m.x = hn::Sub(hn::Set(d, q.position.x), b.x);
-    m.y = hn::Sub(hn::Set(d, q.position.y), b.y);
-    m.z = hn::Sub(hn::Set(d, q.position.z), b.z);
+    m.x = hn::Sub(own.x, b.x);
+    m.y = hn::Sub(own.y, b.y);
+    m.z = hn::Sub(own.z, b.z);
     if constexpr (repeats) {
       m.x = image(d, m.x, q.periods->length.x, q.periods->inverse.x);
       m.y = image(d, m.y, q.periods->length.y, q.periods->inverse.y);
       m.z = image(d, m.z, q.periods->length.z, q.periods->inverse.z);
     }
-    m.u = hn::Sub(hn::Set(d, q.velocity.x), b.u);
-    m.v = hn::Sub(hn::Set(d, q.velocity.y), b.v);
-    m.w = hn::Sub(hn::Set(d, q.velocity.z), b.w);
-    m.start = hn::Add(b.radius, hn::Set(d, q.radius));
+    m.u = hn::Sub(own.u, b.u);
+    m.v = hn::Sub(own.v, b.v);
+    m.w = hn::Sub(own.w, b.w);
+    m.start = hn::Add(b.radius, own.radius);
     if constexpr (grows) {
       const V limit = limits<V>(d, balls, n);
       m.start = hn::Add(m.start, hn::Mul(half, hn::Mul(hn::Mul(limit, since), since)));
-      m.rate = hn::Add(hn::Mul(limit, since), hn::Set(d, q.speed));
-      m.growth = hn::Add(limit, hn::Set(d, q.growth));
+      m.rate = hn::Add(hn::Mul(limit, since), own.speed);
+      m.growth = hn::Add(limit, own.growth);
       if constexpr (drifts) {
         m.start = hn::Add(m.start, hn::Mul(drift.growth_speed, since));
         m.rate = hn::Add(m.rate, drift.growth_speed);
-        const V bend = hn::Add(hn::Add(hn::Abs(hn::Sub(hn::Set(d, q.plan.x), drift.x)),
-                                       hn::Abs(hn::Sub(hn::Set(d, q.plan.y), drift.y))),
-                               hn::Abs(hn::Sub(hn::Set(d, q.plan.z), drift.z)));
+        const V bend =
+            hn::Add(hn::Add(hn::Abs(hn::Sub(own.plan.x, drift.x)), hn::Abs(hn::Sub(own.plan.y, drift.y))),
+                    hn::Abs(hn::Sub(own.plan.z, drift.z)));
         m.growth = hn::Add(m.growth, bend);
       }
       m.growth = hn::Mul(half, m.growth);
@@ -248,7 +297,7 @@ HWY_INLINE V refine(D d, const RelativeMotions<true>& m, V more, V time) {
 /// Returns how long those of a group certainly stay apart, 0 where that is unknown: times are guessed, and
 /// then tried.
 template <bool grows, bool drifts>
-HWY_INLINE V stay_apart_for(D d, const RelativeMotions<grows>& pairs, const NearQuery& q) {
+HWY_INLINE V stay_apart_for(D d, const RelativeMotions<grows>& pairs, const PairQuery& q) {
   // With as much again as the margin, what rounding makes of a guess does not matter.
   const V zero = hn::Zero(d), more = hn::Set(d, q.margin), near = hn::Add(pairs.start, hn::Set(d, q.near));
   const auto tried = [&](V time) HWY_ATTR {
@@ -267,12 +316,13 @@ HWY_INLINE V stay_apart_for(D d, const RelativeMotions<grows>& pairs, const Near
 }
 
 template <bool grows, bool drifts, bool repeats>
-HWY_INLINE std::uint32_t group(const Ball* balls, const std::uint32_t* n, const NearQuery& q, double* apart) {
+HWY_INLINE std::uint32_t group(const Ball* balls, const std::uint32_t* n, const Motions& own,
+                               const NearQuery& q, double* apart) {
   const D d;
-  const auto pairs = RelativeMotions<grows>::template of<drifts, repeats>(d, balls, n, q);
+  const auto pairs = RelativeMotions<grows>::template of<drifts, repeats>(d, own, balls, n, q.pairs);
   const M meet = hn::Not(pairs.stay_apart(d, hn::Set(d, q.duration)));
   const std::uint32_t found = bits_of(d, meet) & ((1u << hn::Lanes(d)) - 1);
-  if (found != 0) hn::StoreU(stay_apart_for<grows, drifts>(d, pairs, q), d, apart);
+  if (found != 0) hn::StoreU(stay_apart_for<grows, drifts>(d, pairs, q.pairs), d, apart);
   return found;
 }
 
@@ -280,30 +330,115 @@ template <bool grows, bool drifts, bool repeats>
 std::uint32_t candidates(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                          const NearQuery& query, double* apart) {
   const std::size_t lanes = hn::Lanes(D());
+  const Motions own = motion_of(D(), query);
   std::uint32_t found = 0;
   std::size_t k = 0;
   for (; k + lanes <= count; k += lanes)
-    found |= group<grows, drifts, repeats>(balls, neighbours + k, query, apart + k) << k;
+    found |= group<grows, drifts, repeats>(balls, neighbours + k, own, query, apart + k) << k;
   if (k < count) {
     std::uint32_t rest[8];
     for (std::size_t lane = 0; lane < lanes; ++lane) rest[lane] = neighbours[k + lane < count ? k + lane : k];
-    found |= (group<grows, drifts, repeats>(balls, rest, query, apart + k) & ((1u << (count - k)) - 1)) << k;
+    found |= (group<grows, drifts, repeats>(balls, rest, own, query, apart + k) & ((1u << (count - k)) - 1))
+             << k;
   }
   return found;
 }
 
-template <bool repeats>
-std::uint32_t candidates(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
-                         const NearQuery& query, double* apart) {
-  if (query.drifts != nullptr) return candidates<true, true, repeats>(balls, neighbours, count, query, apart);
-  return query.grows ? candidates<true, false, repeats>(balls, neighbours, count, query, apart)
-                     : candidates<false, false, repeats>(balls, neighbours, count, query, apart);
+/// Calls f(grows, drifts, repeats) with the constants that suit the world.
+HWY_INLINE auto as_in_world(const PairQuery& query, auto f) {
+  const auto of_space = [&](auto repeats) HWY_ATTR {
+    const std::true_type yes;
+    const std::false_type no;
+    if (query.drifts != nullptr) return f(yes, yes, repeats);
+    return query.grows ? f(yes, no, repeats) : f(no, no, repeats);
+  };
+  return query.periods->any ? of_space(std::true_type()) : of_space(std::false_type());
 }
 
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                        const NearQuery& query, double* apart) {
-  return query.periods->any ? candidates<true>(balls, neighbours, count, query, apart)
-                            : candidates<false>(balls, neighbours, count, query, apart);
+  return as_in_world(query.pairs, [&](auto grows, auto drifts, auto repeats) HWY_ATTR {
+    return candidates<grows, drifts, repeats>(balls, neighbours, count, query, apart);
+  });
+}
+
+template <bool grows, bool drifts, bool repeats>
+HWY_INLINE V group_apart(D d, const Ball* balls, const std::uint32_t* first, const std::uint32_t* second,
+                         const PairQuery& q) {
+  const Motions own = motions_of<grows, drifts>(d, balls, first, q);
+  const auto pairs = RelativeMotions<grows>::template of<drifts, repeats>(d, own, balls, second, q);
+  double ends[hn::MaxLanes(d)];
+  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) ends[lane] = balls[first[lane]].own;
+  const M apart = pairs.stay_apart(d, hn::Sub(hn::LoadU(d, ends), hn::Set(d, q.now)));
+  const V never = hn::Inf(d);
+  if (hn::AllTrue(d, apart)) return never;
+  return hn::IfThenElse(apart, never, stay_apart_for<grows, drifts>(d, pairs, q));
+}
+
+void pairs_stay_apart(const Ball* balls, const std::uint32_t* first, const std::uint32_t* second,
+                      std::size_t count, const PairQuery& query, double* apart) {
+  as_in_world(query, [&](auto grows, auto drifts, auto repeats) HWY_ATTR {
+    const D d;
+    for (std::size_t k = 0; k < count; k += hn::Lanes(d))
+      hn::StoreU(group_apart<grows, drifts, repeats>(d, balls, first + k, second + k, query), d, apart + k);
+  });
+}
+
+/// Loads the safe regions of a group: their centres and radii (region units).
+struct Regions {
+  V x, y, z, radius;
+};
+#if HWY_MAX_BYTES >= 32
+HWY_INLINE Regions load_regions(D d, const Ball* balls, const std::uint32_t* n) {
+  const hn::Rebind<float, D> half;
+  const auto row = [=](std::uint32_t number)
+                       HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(half, balls[number].centre)); };
+  Regions all{row(n[0]), row(n[1]), row(n[2]), row(n[3])};
+  columns(d, all.x, all.y, all.z, all.radius);
+  return all;
+}
+#else
+HWY_INLINE Regions load_regions(D d, const Ball* balls, const std::uint32_t* n) {
+  const Ball& b = balls[*n];
+  return {hn::Set(d, double{b.centre[0]}), hn::Set(d, double{b.centre[1]}), hn::Set(d, double{b.centre[2]}),
+          hn::Set(d, double{b.region})};
+}
+#endif
+
+/// Core::stays_inside() for balls that go straight on and whose bounds do not grow, with its first guess.
+HWY_INLINE V group_stays(D d, const Ball* balls, const std::uint32_t* n, const StayQuery& query) {
+  Neighbours<V> b = load<V>(d, balls, n);
+  move_on<false>(d, b, hn::Sub(hn::Set(d, query.now), b.time), nullptr, n);
+  const Regions region = load_regions(d, balls, n);
+  const V unit = hn::Set(d, query.unit), zero = hn::Zero(d);
+  const V x = hn::Sub(b.x, hn::Add(hn::Mul(region.x, unit), hn::Set(d, query.origin.x)));
+  const V y = hn::Sub(b.y, hn::Add(hn::Mul(region.y, unit), hn::Set(d, query.origin.y)));
+  const V z = hn::Sub(b.z, hn::Add(hn::Mul(region.z, unit), hn::Set(d, query.origin.z)));
+  const V room = hn::Sub(hn::Mul(region.radius, unit), hn::Set(d, query.margin));
+  const V qq = dot(x, y, z, x, y, z), qv = dot(x, y, z, b.u, b.v, b.w),
+          vv = dot(b.u, b.v, b.w, b.u, b.v, b.w);
+  const V squared_room = hn::Mul(room, room), left = hn::Sub(squared_room, qq);
+  const V root = hn::Sqrt(hn::Add(hn::Mul(qv, qv), hn::Mul(vv, left)));
+  const M outwards = hn::Gt(qv, zero);
+  const V above = hn::IfThenElse(outwards, left, hn::Sub(root, qv));
+  const V below = hn::IfThenElse(outwards, hn::Add(root, qv), vv);
+  const V guess = hn::Mul(hn::Set(d, 1.0 - 0x1p-30), hn::Div(above, below));
+  const V way = hn::Mul(vv, guess);
+  const V square = hn::Add(qq, hn::Mul(hn::Add(hn::Add(qv, qv), way), guess));
+  const V size = hn::Add(qq, hn::Mul(hn::Add(hn::Add(hn::Abs(qv), hn::Abs(qv)), way), guess));
+  const V rounding = hn::Mul(hn::Set(d, 0x1p-48), size);
+  const M is_inside = hn::And(hn::Gt(room, zero), hn::Lt(qq, squared_room));
+  const M is_certain =
+      hn::And(hn::And(hn::Eq(limits<V>(d, balls, n), zero), hn::Ge(vv, hn::Set(d, 0x1p-800))),
+              hn::And(is_inside, hn::Lt(hn::Add(square, rounding), squared_room)));
+  return hn::IfThenElse(is_certain, guess, hn::Set(d, -1.0));
+}
+
+void stays_in_flight(const Ball* balls, const std::uint32_t* numbers, std::size_t count,
+                     const StayQuery& query, double* stays) {
+  const D d;
+  for (std::size_t k = 0; k < count; k += hn::Lanes(d))
+    hn::StoreU(group_stays(d, balls, numbers + k, query), d, stays + k);
 }
 
 using F = hn::CappedTag<float, RegionBlock::lanes>;
@@ -384,12 +519,24 @@ HWY_AFTER_NAMESPACE();
 namespace kinesphere::core {
 
 HWY_EXPORT(may_meet);
+HWY_EXPORT(pairs_stay_apart);
+HWY_EXPORT(stays_in_flight);
 HWY_EXPORT(regions_within_reach);
 HWY_EXPORT(compare_lists);
 
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                        const NearQuery& query, double* apart) {
   return HWY_DYNAMIC_DISPATCH(may_meet)(balls, neighbours, count, query, apart);
+}
+
+void pairs_stay_apart(const Ball* balls, const std::uint32_t* first, const std::uint32_t* second,
+                      std::size_t count, const PairQuery& query, double* apart) {
+  HWY_DYNAMIC_DISPATCH(pairs_stay_apart)(balls, first, second, count, query, apart);
+}
+
+void stays_in_flight(const Ball* balls, const std::uint32_t* numbers, std::size_t count,
+                     const StayQuery& query, double* stays) {
+  HWY_DYNAMIC_DISPATCH(stays_in_flight)(balls, numbers, count, query, stays);
 }
 
 std::size_t regions_within_reach(const RegionBlock* blocks, const BallBlock* balls,

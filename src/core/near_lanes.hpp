@@ -33,20 +33,24 @@ struct Periods {
   return way - period * ((way * inverse + rounder) - rounder);
 }
 
-/// A ball at the present, and a span of time.
-struct NearQuery {
+/// What concerns all pairs at the present.
+struct PairQuery {
   double now;
-  double duration;
-  Vec3 position, velocity;
-  double radius;        ///< with growth and margin
-  double margin;        ///< for rounding (length), which is in `radius`
+  double margin;        ///< for rounding (length)
   double near;          ///< two whose gap is less than the margin and this (length) are near each other
-  double speed;         ///< at which the bound grows
-  double growth;        ///< acceleration with which it grows
-  Vec3 plan;            ///< planned acceleration
   bool grows;           ///< any bound grows
   const Drift* drifts;  ///< of all balls; nullptr if there are none
   const Periods* periods;
+};
+/// A ball at the present, and a span of time.
+struct NearQuery {
+  PairQuery pairs;
+  double duration;
+  Vec3 position, velocity;
+  double radius;  ///< with growth and margin
+  double speed;   ///< at which the bound grows
+  double growth;  ///< acceleration with which it grows
+  Vec3 plan;      ///< planned acceleration
 };
 /// Most neighbours in one call, for which `apart` has room.
 inline constexpr std::size_t most_lanes = 32;
@@ -56,6 +60,25 @@ inline constexpr std::size_t most_lanes = 32;
 /// What is written of others means nothing.
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                        const NearQuery& query, double* apart);
+
+/// Numbers are taken in groups of so many: an array of numbers, and that of the results, has room for whole
+/// groups, with the number of any ball in the rest.
+inline constexpr std::size_t group_lanes = 4;
+/// Writes to `apart` of each pair how long the two certainly do not meet: infinity if not before the own time
+/// of the first one, and otherwise what may_meet() gives.
+void pairs_stay_apart(const Ball* balls, const std::uint32_t* first, const std::uint32_t* second,
+                      std::size_t count, const PairQuery& query, double* apart);
+
+struct StayQuery {
+  double now;
+  double unit;    ///< of regions (length)
+  Vec3 origin;    ///< of region units
+  double margin;  ///< for rounding (length)
+};
+/// Writes to `stays` how long each ball stays in its safe region, as Core::stays_inside() does, but a
+/// negative number if that is not known at once. Precondition: no ball has a drift.
+void stays_in_flight(const Ball* balls, const std::uint32_t* numbers, std::size_t count,
+                     const StayQuery& query, double* stays);
 
 /// Eight safe regions: what a search reads of all that it looks at.
 struct alignas(64) RegionBlock {

@@ -13,7 +13,7 @@ namespace kinesphere::core {
 /// Computes Ball::own, given how long the ball stays in its safe region.
 void Core::set_own(std::uint32_t number, double stay, Host& host) {
   set_stay(number, stay);
-  limit_own(number, clear_of_walls(number, host));
+  if (balls_[number].walls != 0) limit_own(number, clear_of_walls(number, host));
 }
 
 /// Computes Ball::own as set_own() does, later than now. Where there is too little room for the least step of
@@ -52,7 +52,6 @@ StayCounts Core::count_stays() const {
 /// Returns a time before which nothing happens between the ball and the walls; now if reports have to decide.
 double Core::clear_of_walls(std::uint32_t number, Host& host) const {
   const Ball& ball = balls_[number];
-  if (ball.walls == 0) return infinity;
   double clear = ball.is(Ball::linked) ? 0.0 : infinity;
   for (const auto& [wall, inside] : walls_)
     if ((ball.walls & wall_bit(wall)) != 0) clear = std::min(clear, clear_of_wall(number, inside));

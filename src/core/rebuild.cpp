@@ -100,6 +100,7 @@ void Core::assemble() {
     Ball& ball = balls_[number];
     if (!ball.is_present()) continue;
     ++present_;
+    arriving_ += static_cast<std::size_t>(ball.is(Ball::arriving));
     if (saved_.reaches[number] > 0.0F) cells_.add_unsorted(balls_, number, saved_.reaches[number]);
     if (ball.is(Ball::passive)) continue;
     ball.list = lists_.add();

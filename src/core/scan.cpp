@@ -15,8 +15,8 @@ void Core::note_change(std::uint32_t number, Host& host) {
   ball.set(Ball::crowded, false);
   std::uint64_t last = changes_[number];
   for (const std::uint32_t other : lists_.at(ball.list)) last = std::max(last, changes_[other]);
-  if (ball.is(Ball::linked))
-    for (const std::uint32_t other : host.linked_with(number)) last = std::max(last, changes_[other]);
+  find_linked(number, linked_, host);
+  for (const std::uint32_t other : linked_) last = std::max(last, changes_[other]);
   changes_[number] = last + 1;
 }
 
@@ -24,13 +24,17 @@ void Core::note_change(std::uint32_t number, Host& host) {
 /// it looks out for, if that is earlier. `is_last`: it has changed last of all of them, so it looks out for
 /// all.
 void Core::schedule(std::uint32_t number, bool is_last, Host& host) {
+  if (balls_[number].is(Ball::passive)) return;
+  find_due(number, is_last, host);
+  queue_.push(balls_.all(), number);
+  note_course(number);
+}
+
+void Core::find_due(std::uint32_t number, bool is_last, Host& host) {
   Ball& ball = balls_[number];
-  if (ball.is(Ball::passive)) return;
-  if (ball.scans < 255) ++ball.scans;
-  ball.about = none;
-  ball.due = ball.second = ball.own;
+  begin_scan(ball);
   const auto neighbours = lists_.at(ball.list);
-  const auto linked = ball.is(Ball::linked) ? host.linked_with(number) : std::span<const std::uint32_t>();
+  find_linked(number, linked_, host);
   Counters& work = host.work_counters(number);
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     std::array<std::uint32_t, most_lanes> room;
@@ -40,27 +44,52 @@ void Core::schedule(std::uint32_t number, bool is_last, Host& host) {
     for (std::uint32_t left = candidates(number, some, ball.second - balls_.time(), apart); left != 0;
          left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-      const std::uint32_t other = some[lane];
-      double until = rounding::sum_down(balls_.time(), apart[lane]);
-      if (!(until > balls_.time())) until = apart_until(number, other, ball.second - balls_.time());
-      if (!(until > balls_.time())) {
-        ball.set(Ball::crowded, true);
-        balls_[other].set(Ball::crowded, true);
-        if (std::binary_search(linked.begin(), linked.end(), other)) continue;
-        until = std::min(host.unchanged_until(number, other), holds_until(number, other));
-      }
-      ++work.certificates;
-      if (until < ball.own) ++work.hot_pairs;
-      consider(ball, other, until);
+      if (!look_out_for(number, some[lane], apart[lane], linked_, work, host)) continue;
+      ball.set(Ball::crowded, true);
+      balls_[some[lane]].set(Ball::crowded, true);
     }
   }
-  for (const std::uint32_t other : linked) {
-    if (changes_[other] > changes_[number]) continue;
-    ++work.certificates;
-    consider(ball, other, std::min(host.unchanged_until(number, other), holds_until(number, other)));
+  look_out_for_linked(number, linked_, work, host);
+}
+
+/// The list of a ball is about to be scanned.
+void Core::begin_scan(Ball& ball) {
+  if (ball.scans < 255) ++ball.scans;
+  ball.about = none;
+  ball.due = ball.second = ball.own;
+}
+
+void Core::find_linked(std::uint32_t number, std::vector<std::uint32_t>& linked, Host& host) const {
+  linked.clear();
+  if (balls_[number].is(Ball::linked)) host.linked_with(number, linked);
+}
+
+/// A ball may meet a neighbour, but certainly does not for the time `apart`. `linked`: those with which it is
+/// linked. Returns true if the two may be in touch.
+bool Core::look_out_for(std::uint32_t number, std::uint32_t other, double apart,
+                        std::span<const std::uint32_t> linked, Counters& work, Host& host) {
+  Ball& ball = balls_[number];
+  double until = rounding::sum_down(balls_.time(), apart);
+  if (!(until > balls_.time())) until = apart_until(number, other, ball.second - balls_.time());
+  const bool are_near = !(until > balls_.time());
+  if (are_near) {
+    if (std::binary_search(linked.begin(), linked.end(), other)) return true;
+    until = std::min(host.unchanged_until(number, other), holds_until(number, other));
   }
-  queue_.push(balls_.all(), number);
-  note_course(number);
+  ++work.certificates;
+  if (until < ball.own) ++work.hot_pairs;
+  consider(ball, other, until);
+  return are_near;
+}
+
+void Core::look_out_for_linked(std::uint32_t number, std::span<const std::uint32_t> linked, Counters& work,
+                               Host& host) {
+  for (const std::uint32_t other : linked) {
+    if (!looks_out_for(number, other)) continue;
+    ++work.certificates;
+    consider(balls_[number], other,
+             std::min(host.unchanged_until(number, other), holds_until(number, other)));
+  }
 }
 
 /// Computes when a ball is due that has a later own time than before.
@@ -77,16 +106,14 @@ double Core::holds_until(std::uint32_t number, std::uint32_t other) const {
   return balls_.is_exact(number) && balls_.is_exact(other) ? infinity : balls_[other].own;
 }
 
-/// Returns those of some neighbours that a ball looks out for, as they have not changed since it did. The
-/// others look out for it. There has to be room for all of them.
+/// Returns those of some neighbours that a ball looks out for. There has to be room for all of them.
 std::span<const std::uint32_t> Core::looked_out_for(std::uint32_t number,
                                                     std::span<const std::uint32_t> neighbours,
                                                     std::span<std::uint32_t> room) const {
-  const std::uint64_t change = changes_[number];
   std::size_t count = 0;
   for (const std::uint32_t neighbour : neighbours) {
     room[count] = neighbour;
-    count += static_cast<std::size_t>(changes_[neighbour] <= change);
+    count += static_cast<std::size_t>(looks_out_for(number, neighbour));
   }
   return room.first(count);
 }
@@ -109,24 +136,22 @@ void Core::consider(Ball& ball, std::uint32_t other, double time) {
   }
 }
 
+/// What concerns all pairs now.
+PairQuery Core::pair_query() const { return balls_.pair_query(margin_, tolerance_ - margin_); }
+
 /// Returns a bit for each of some neighbours that may be met within this time from now, and how long each of
 /// these is certainly not met (may_meet() in near_lanes.hpp).
 std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours,
                                double duration, std::span<double, most_lanes> apart) const {
   const BoundAt own = balls_.bound_now(number);
-  const NearQuery query{.now = balls_.time(),
+  const NearQuery query{.pairs = pair_query(),
                         .duration = duration,
                         .position = own.centre,
                         .velocity = own.velocity,
                         .radius = own.radius + margin_,
-                        .margin = margin_,
-                        .near = tolerance_ - margin_,
                         .speed = own.speed,
                         .growth = own.growth,
-                        .plan = own.acceleration,
-                        .grows = balls_.any_grows(),
-                        .drifts = balls_.drifts(),
-                        .periods = &balls_.periods()};
+                        .plan = own.acceleration};
   return may_meet(balls_.all().data(), neighbours.data(), neighbours.size(), query, apart.data());
 }
 

@@ -49,6 +49,14 @@ class World::Engine {
   const ContactGraph& contacts() const { return state_.contacts; }
   const core::Core& core() const { return state_.core; }
   const EventProcessor& main() const { return main_; }
+  /// Sets threads that share what concerns many bodies at once (EventProcessor::use_workers()). Copies of the
+  /// engine have none.
+  void use_workers(Workers* workers, bool call_probe) {
+    main_.use_workers(workers);
+    probing_workers_ = call_probe ? workers : nullptr;
+  }
+  /// Returns the threads that may all call the probe; nullptr if there are none.
+  Workers* probing_workers() const { return probing_workers_; }
   /// Returns true if the body is registered for searches.
   bool is_registered(std::uint32_t number) const { return core().contains(number); }
   /// Returns the time until which the body stays in its box.
@@ -100,6 +108,7 @@ class World::Engine {
   WorldState state_;
   EventProcessor main_;
   std::unique_ptr<ProbeProfile> profile_;
+  Workers* probing_workers_ = nullptr;
 };
 
 }  // namespace kinesphere

@@ -30,6 +30,9 @@ class World::WorldEditor {
   void set_rotation_probe(RotationProbe probe) { state_.bodies.rigid.probe = std::move(probe); }
   void remove(BodyId id);
   void set_velocity(BodyId id, const Vec3& velocity) { main_.set_velocity(id.index, velocity); }
+  void set_velocities(BodyIds ids, std::span<const Vec3> velocities, PoolLease& lease) {
+    main_.set_velocities(ids, velocities, lease);
+  }
   void teleport(BodyId id, const State& state);
   void set_radius(BodyId id, double radius);
   void set_radius_rate(BodyId id, double rate);

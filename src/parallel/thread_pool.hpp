@@ -38,8 +38,10 @@ class SharedRange {
   SharedRange(std::size_t items, std::size_t range, RangeFunction work)
       : items_(items), range_(range), work_(work) {}
 
-  /// Processes ranges until none is left or one has failed. Thread-safe.
-  void work(std::size_t worker);
+  /// Processes ranges until none is left or one has failed. Returns how many. Thread-safe.
+  std::size_t work(std::size_t worker);
+  /// Returns the number of all ranges.
+  std::size_t ranges() const { return (items_ + range_ - 1) / range_; }
   /// Throws the exception of the first range that failed, if any. Precondition: all workers have stopped.
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);

@@ -1,8 +1,9 @@
 #include "kinesphere/workers.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <condition_variable>
-#include <ctime>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -14,6 +15,43 @@
 
 namespace kinesphere {
 namespace {
+
+/// Judges by the clock whether other threads save time. On a busy machine they come late, or are interrupted
+/// amid a range for which the caller has to wait. Then they rest, at first for a few sets of items.
+class Profit {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Returns true if the caller should do the next set of items alone.
+  bool rests() {
+    if (resting_ == 0) return false;
+    --resting_;
+    return true;
+  }
+  /// A set of items was shared: the caller has woken the others from `begin` on, worked on `own` of so many
+  /// ranges from `woken` on, and waited for the others from `waiting` on.
+  void note(std::size_t own, std::size_t ranges, Clock::time_point begin, Clock::time_point woken,
+            Clock::time_point waiting) {
+    const std::chrono::duration<double> waking = woken - begin, work = waiting - woken,
+                                        waited = Clock::now() - waiting;
+    const double by_others = static_cast<double>(ranges - own) / static_cast<double>(own > 0 ? own : 1);
+    work_ += work.count();
+    saved_ += by_others * work.count() - waking.count() - waited.count();
+    if (++sets_ < judged_at_once) return;
+    rest_ =
+        saved_ < least_profit * work_ ? std::min(rest_ > 0 ? 2 * rest_ : judged_at_once, longest_rest) : 0;
+    resting_ = rest_;
+    sets_ = 0;
+    work_ = saved_ = 0.0;
+  }
+
+ private:
+  static constexpr int judged_at_once = 32, longest_rest = 4096;
+  static constexpr double least_profit = 0.05;
+
+  int sets_ = 0, rest_ = 0, resting_ = 0;
+  double work_ = 0.0, saved_ = 0.0;  ///< of the caller (seconds)
+};
 
 /// Threads that sleep until there are items, and again after a short wait without items.
 class Threads final : public ThreadPool {
@@ -33,6 +71,11 @@ class Threads final : public ThreadPool {
   int count() const override { return static_cast<int>(threads_.size()) + 1; }
 
   void run(SharedRange& items) override {
+    if (profit_.rests()) {
+      items.work(0);
+      return;
+    }
+    const Profit::Clock::time_point begin = Profit::Clock::now();
     bool any_asleep = false;
     {
       const std::lock_guard lock(mutex_);
@@ -42,7 +85,9 @@ class Threads final : public ThreadPool {
       any_asleep = asleep_ > 0;
     }
     if (any_asleep) wake_.notify_all();
-    items.work(0);
+    const Profit::Clock::time_point woken = Profit::Clock::now();
+    const std::size_t own = items.work(0);
+    const Profit::Clock::time_point waiting = Profit::Clock::now();
     {
       // A worker that has not started by now has no items left, and is not waited for.
       const std::lock_guard lock(mutex_);
@@ -50,8 +95,11 @@ class Threads final : public ThreadPool {
     }
     const auto all_have_stopped = [this] { return working_ == 0; };
     spin_until(all_have_stopped);
-    std::unique_lock lock(mutex_);
-    done_.wait(lock, all_have_stopped);
+    {
+      std::unique_lock lock(mutex_);
+      done_.wait(lock, all_have_stopped);
+    }
+    profit_.note(own, items.ranges(), begin, woken, waiting);
   }
 
  private:
@@ -91,6 +139,7 @@ class Threads final : public ThreadPool {
     for (std::thread& thread : threads_) thread.join();
   }
 
+  Profit profit_;
   /// Protects all members below except threads_; atomic members are also read without it.
   std::mutex mutex_;
   std::condition_variable wake_;
@@ -135,10 +184,11 @@ Result<void> check_threads(int threads) {
 
 }  // namespace
 
-void SharedRange::work(std::size_t worker) {
-  while (!failed_.load(std::memory_order_relaxed)) {
+std::size_t SharedRange::work(std::size_t worker) {
+  std::size_t done = 0;
+  for (; !failed_.load(std::memory_order_relaxed); ++done) {
     const std::size_t begin = next_.fetch_add(range_, std::memory_order_relaxed);
-    if (begin >= items_) return;
+    if (begin >= items_) return done;
     try {
       work_(begin, items_ - begin < range_ ? items_ : begin + range_, worker);
     } catch (...) {
@@ -150,6 +200,7 @@ void SharedRange::work(std::size_t worker) {
       failed_ = true;
     }
   }
+  return done;
 }
 
 PoolLease::PoolLease(Workers* workers) {

@@ -1,4 +1,6 @@
 // What the core asks of an event processor (core/host.hpp), and what it is told.
+#include <atomic>
+
 #include "bodies/body_bounds.hpp"
 #include "processor/event_processor.hpp"
 
@@ -78,46 +80,65 @@ void EventProcessor::note_changed_contacts() {
   events_.changed().clear();
 }
 
+/// Tells the core of a body of which nothing but the velocity has changed. Returns false, and does nothing,
+/// if that is not so. Threads may call it for different bodies.
+bool EventProcessor::tell_core_of_turn(std::uint32_t number) {
+  Body& body = bodies()[number];
+  if (!body.turned || body.is_shaped() || bodies().radii.any() || !core().contains(number)) return false;
+  core().report(number, {body.bound.position, body.bound.velocity});
+  body.mark_recertified();
+  return true;
+}
+
+void EventProcessor::tell_core_of_change(std::uint32_t number) {
+  Body& body = bodies()[number];
+  if (body.relocated && core().contains(number)) core().leave(number);
+  if (core().contains(number))
+    core().set_bound(number, extent_of(number));
+  else
+    enter_core(number);
+  set_kind_in_core(number);
+  note_rotation(number);
+  body.mark_recertified();
+}
+
 /// Tells the core of the bodies that have changed, and of those whose contacts have.
-void EventProcessor::settle_core() {
-  for (const std::uint32_t number : round_) {
-    Body& body = bodies()[number];
-    ++counters_of(number).restarts;
-    if (body.turned && !body.is_shaped() && !bodies().radii.any() && core().contains(number)) {
-      core().report(number, {body.bound.position, body.bound.velocity});
-    } else {
-      if (body.relocated && core().contains(number)) core().leave(number);
-      if (core().contains(number))
-        core().set_bound(number, extent_of(number));
-      else
-        enter_core(number);
-      set_kind_in_core(number);
-      note_rotation(number);
-    }
-    body.mark_recertified();
-  }
+void EventProcessor::settle_core(PoolLease& lease) {
+  for (const std::uint32_t number : round_) ++counters_of(number).restarts;
+  std::atomic<bool> all_turned = true;
+  lease.parallel_for(round_.size(), least_part, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t k = from; k < to; ++k)
+      if (!tell_core_of_turn(round_[k])) all_turned = false;
+  });
+  if (!all_turned)
+    for (const std::uint32_t number : round_)
+      if (bodies()[number].dirty) tell_core_of_change(number);
   dirty_.clear();
   note_changed_contacts();
   make_ascending(round_);
-  std::erase_if(round_, [this](std::uint32_t number) { return !core().contains(number); });
-  core().settle(round_, *this);
+  if (!all_turned) std::erase_if(round_, [this](std::uint32_t number) { return !core().contains(number); });
+  core().settle(round_, *this, lease);
 }
 
-std::span<const std::uint32_t> EventProcessor::linked_with(std::uint32_t ball) {
-  partners_.clear();
-  for (const ContactRecord& contact : contacts().partners_of(ball)) partners_.push_back(contact.partner);
+/// What is known of shapes is kept, and a pair filter is the caller's.
+bool EventProcessor::answers_threads() const {
+  return bodies().are_balls() && !bodies().filters.has_pair_filter();
+}
+
+void EventProcessor::linked_with(std::uint32_t ball, std::vector<std::uint32_t>& linked) {
+  linked.clear();
+  for (const ContactRecord& contact : contacts().partners_of(ball)) linked.push_back(contact.partner);
   const auto overlaps = contacts().overlaps_of(ball);
   for (auto next = overlaps.begin(); next != overlaps.end();) {
     const std::uint32_t partner = next->partner;
-    partners_.push_back(partner);
+    linked.push_back(partner);
     next = std::partition_point(next, overlaps.end(),
                                 [=](const OverlapRecord& overlap) { return overlap.partner <= partner; });
   }
   for (const PairNote& record : contacts().pairs().of(ball))
-    if (record.is_turned()) partners_.push_back(record.partner);
-  std::sort(partners_.begin(), partners_.end());
-  partners_.erase(std::unique(partners_.begin(), partners_.end()), partners_.end());
-  return partners_;
+    if (record.is_turned()) linked.push_back(record.partner);
+  std::sort(linked.begin(), linked.end());
+  linked.erase(std::unique(linked.begin(), linked.end()), linked.end());
 }
 
 std::size_t EventProcessor::keep_partners(std::uint32_t ball, std::span<std::uint32_t> others) {

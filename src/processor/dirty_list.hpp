@@ -40,6 +40,22 @@ class DirtyList {
     body.dirty = true;
     body.turned = turns_alone;
   }
+  /// Makes room for so many bodies at once. Returns the place of the first. put_turned() has to follow for
+  /// each. Threads may call it for different bodies.
+  std::size_t extend(std::size_t more) {
+    numbers_.resize(numbers_.size() + more);
+    return numbers_.size() - more;
+  }
+  /// Lists a clean body as add() does, of which the velocity changes alone.
+  void put_turned(Body& body, std::uint32_t number, std::size_t place) {
+    numbers_[place] = number;
+    body.dirty = body.turned = true;
+  }
+  /// A body need not be recertified any more.
+  void forget(Body& body) {
+    body.mark_recertified();
+    may_list_clean_ = true;
+  }
   /// Returns all bodies of which more than the velocity has changed, so that they may be elsewhere than the
   /// core knows, and possibly some that are clean.
   std::span<const std::uint32_t> moved() const { return moved_; }
@@ -49,23 +65,28 @@ class DirtyList {
   /// list. Cost: O(n log n).
   const std::vector<std::uint32_t>& sort(const Bodies& bodies) {
     make_ascending(numbers_);
-    std::erase_if(numbers_, [&](std::uint32_t number) { return !bodies[number].dirty; });
+    if (may_list_clean_) std::erase_if(numbers_, [&](std::uint32_t number) { return !bodies[number].dirty; });
     return numbers_;
   }
   void clear() {
     numbers_.clear();
     moved_.clear();
+    may_list_clean_ = false;
   }
 
   template <class Self>
   static void serialize(Self& self, auto& archive) {
     archive(self.numbers_);
-    if constexpr (!std::is_const_v<Self>) self.moved_ = self.numbers_;
+    if constexpr (!std::is_const_v<Self>) {
+      self.moved_ = self.numbers_;
+      self.may_list_clean_ = true;
+    }
   }
 
  private:
   std::vector<std::uint32_t> numbers_;
   std::vector<std::uint32_t> moved_;
+  bool may_list_clean_ = false;
 };
 
 }  // namespace kinesphere

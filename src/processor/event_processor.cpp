@@ -3,6 +3,7 @@
 #include "processor/event_processor.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <iterator>
 
@@ -89,9 +90,10 @@ void EventProcessor::note_probes(std::span<const std::uint32_t> numbers, ProbeCa
   if (reports_.profile() != nullptr) reports_.profile()->note_probes(bodies().table(), numbers, cause);
 }
 
-Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, ProbeCause cause) {
+Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, ProbeCause cause,
+                                   PoolLease& work) {
   note_probes(numbers, cause);
-  const auto broken = reports_.take(bodies(), time_, numbers);
+  const auto broken = reports_.take(bodies(), time_, numbers, work);
   if (!broken) return broken.error();
   // What has changed is told to the core as a whole.
   if (cause != ProbeCause::change) note_reports(numbers);
@@ -152,13 +154,71 @@ void EventProcessor::invalidate(std::uint32_t number, bool turns) {
   dirty_.add(bodies(), number, turns);
 }
 
-void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
+/// Makes everything stale that depends on how the body has moved until now.
+[[gnu::always_inline]] inline void EventProcessor::turn_reported(std::uint32_t number, bool turns) {
+  contacts().turn_reported(number);
+  invalidate(number, turns);
+}
+
+[[gnu::always_inline]] inline void EventProcessor::turn(std::uint32_t number, const Vec3& velocity) {
   Body& body = bodies()[number];
   if (body.is_sleeping()) Sleeping(*state_, *this).wake(number);
   if (!body.fresh(time_)) bodies().change_of(number).velocity = velocity;
   // A body with a report of now moves on with it at once, also if it awaits another report, having slept.
   if (body.bound.time == time_) body.bound.velocity = velocity;
   turn_reported(number, true);
+}
+
+void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) { turn(number, velocity); }
+
+void EventProcessor::set_velocities(std::span<const BodyId> ids, std::span<const Vec3> velocities,
+                                    PoolLease& lease) {
+  const auto number_of = [&](std::size_t k) { return bodies().table().number_of(ids[k]); };
+  // Threads work on bodies that differ, in ascending order, and of which nothing else has changed.
+  struct Part {
+    std::size_t stale = 0;  ///< bodies that await a report, and then where their changes begin
+    std::vector<std::uint32_t> touching{};
+    bool is_regular = true;
+  };
+  std::vector<Part> parts((ids.size() + least_part - 1) / least_part);
+  const bool may_share = lease.count() > 1 && parts.size() > 1;
+  const auto for_each_part = [&](auto work) {
+    lease.parallel_for(ids.size(), least_part, [&](std::size_t from, std::size_t to, std::size_t) {
+      work(from, to, parts[from / least_part]);
+    });
+  };
+  if (may_share)
+    for_each_part([&](std::size_t from, std::size_t to, Part& part) {
+      for (std::size_t k = from; k < to; ++k) {
+        const Body& body = bodies()[number_of(k)];
+        part.stale += static_cast<std::size_t>(!body.fresh(time_));
+        part.is_regular = part.is_regular && !body.is_sleeping() && !body.dirty &&
+                          body.change_number == Body::none && (k == 0 || number_of(k - 1) < number_of(k));
+      }
+    });
+  if (!may_share ||
+      !std::all_of(parts.begin(), parts.end(), [](const Part& part) { return part.is_regular; })) {
+    for (std::size_t k = 0; k < ids.size(); ++k) turn(number_of(k), velocities[k]);
+    return;
+  }
+  std::size_t stale = 0;
+  for (Part& part : parts) stale += std::exchange(part.stale, stale);
+  const std::size_t first_change = bodies().changes.extend(stale), first_place = dirty_.extend(ids.size());
+  for_each_part([&](std::size_t from, std::size_t to, Part& part) {
+    std::size_t place = first_change + part.stale;
+    for (std::size_t k = from; k < to; ++k) {
+      const std::uint32_t number = number_of(k);
+      Body& body = bodies()[number];
+      if (!body.fresh(time_)) bodies().give_change(number, place++).velocity = velocities[k];
+      if (body.bound.time == time_) body.bound.velocity = velocities[k];
+      ++body.revision;
+      dirty_.put_turned(body, number, first_place + k);
+      if (contacts().touches_any(number)) part.touching.push_back(number);
+    }
+  });
+  events_.outdate();
+  for (const Part& part : parts)
+    for (const std::uint32_t number : part.touching) contacts().turn_reported(number);
 }
 
 void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity) {
@@ -170,19 +230,13 @@ void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angu
   turn_reported(number);
 }
 
-/// Makes everything stale that depends on how the body has moved until now.
-void EventProcessor::turn_reported(std::uint32_t number, bool turns) {
-  contacts().turn_reported(number);
-  invalidate(number, turns);
-}
-
 void EventProcessor::detach(std::uint32_t number) {
   events_.end_all_contacts(
       contacts(), number, time_, [this](std::uint32_t other) { return sphere(other); }, bodies().walls());
   events_.drop_woken(bodies().id_of(number));
   Body& body = bodies()[number];
   ++body.revision;
-  body.mark_recertified();
+  dirty_.forget(body);
   contacts().pairs().forget_turns(number);
   if (core().contains(number)) core().leave(number);
 }
@@ -226,11 +280,28 @@ Result<void> EventProcessor::recertify_all() {
 Result<void> EventProcessor::recertify_dirty() {
   // Listed bodies may have been removed or disabled since.
   round_ = dirty_.sort(bodies());
-  if (auto probed = probe_stale(round_, ProbeCause::change); !probed) return probed.error();
+  PoolLease own(workers_for(round_.size()));
+  PoolLease& lease = reports_.lease() != nullptr ? *reports_.lease() : own;
+  if (auto probed = probe_dirty(lease); !probed) return probed;
   // Reports that violate bounds may have made further bodies dirty.
   round_ = dirty_.numbers();
-  settle_core();
+  settle_core(lease);
   return {};
+}
+
+/// Probes the dirty bodies of round_ whose state is unknown: often all of them.
+Result<void> EventProcessor::probe_dirty(PoolLease& lease) {
+  std::atomic<bool> are_all_stale = true;
+  lease.parallel_for(round_.size(), least_part, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t k = from; k < to && are_all_stale; ++k)
+      if (!bodies()[round_[k]].enabled || bodies()[round_[k]].fresh(time_)) are_all_stale = false;
+  });
+  if (round_.empty()) return {};
+  if (are_all_stale) return probe(round_, ProbeCause::change, lease);
+  std::vector<std::uint32_t> stale;
+  for (const std::uint32_t number : round_)
+    if (bodies()[number].enabled && !bodies()[number].fresh(time_)) stale.push_back(number);
+  return stale.empty() ? Result<void>() : probe(stale, ProbeCause::change, lease);
 }
 
 std::size_t EventProcessor::bytes() const {

@@ -36,6 +36,7 @@ class alignas(128) EventProcessor final : public core::Host {
   /// Copies a processor, to work on `state`, a copy of the other's world state.
   EventProcessor(EventProcessor other, WorldState& state) : EventProcessor(std::move(other)) {
     state_ = &state;
+    workers_ = nullptr;
     reports_.set_profile(nullptr);
   }
 
@@ -99,6 +100,8 @@ class alignas(128) EventProcessor final : public core::Host {
     set_velocity(bodies().table().number_of(body), velocity);
   }
   void set_velocity(std::uint32_t number, const Vec3& velocity);
+  /// The same of many bodies, one after the other. The threads of the lease share it.
+  void set_velocities(std::span<const BodyId> ids, std::span<const Vec3> velocities, PoolLease& lease);
   /// Sets the angular velocity of a rigid body from the current time on.
   void set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity);
   /// The two of this event, a crossing of a sensor distance that has been delivered, have not crossed it: a
@@ -111,10 +114,20 @@ class alignas(128) EventProcessor final : public core::Host {
   /// Returns a certifier at the current time.
   PairCertifier certifier() const { return {*state_, time_}; }
 
+  // Threads.
+  /// From now on, these share what concerns many bodies at once, but for calls of the probe; nullptr for
+  /// none. They must outlive their use here. Copies have none.
+  void use_workers(Workers* workers) { workers_ = workers; }
+  /// Returns the workers if so many bodies are worth their while, otherwise nullptr.
+  Workers* workers_for(std::size_t bodies) const { return bodies >= least_shared ? workers_ : nullptr; }
+
   // Reports.
   Reports& reports() { return reports_; }
   const Reports& reports() const { return reports_; }
-  Result<void> probe(std::span<const std::uint32_t> numbers, ProbeCause cause);
+  Result<void> probe(std::span<const std::uint32_t> numbers, ProbeCause cause) {
+    PoolLease alone;
+    return probe(numbers, cause, reports_.lease() != nullptr ? *reports_.lease() : alone);
+  }
   /// Probes the enabled bodies whose state at the current time is unknown. Returns true if there were any.
   Result<bool> probe_stale(std::span<const std::uint32_t> numbers, ProbeCause cause);
   /// Probes exact bodies, for which SpotChecks::may_check(). The reports change nothing, but a body whose
@@ -152,17 +165,25 @@ class alignas(128) EventProcessor final : public core::Host {
   bool rebuild_core();
 
  private:
+  /// Fewer bodies are not shared: waking the threads would take longer.
+  static constexpr std::size_t least_shared = 4096;
+  /// Least number of bodies that a thread takes at a time.
+  static constexpr std::size_t least_part = 1024;
+
   // core_host.cpp
   core::Core& core() { return state_->core; }
   const core::Core& core() const { return state_->core; }
   Bound extent_of(std::uint32_t number) const;
   void set_kind_in_core(std::uint32_t number);
   void note_rotation(std::uint32_t number);
-  void settle_core();
+  void settle_core(PoolLease& lease);
+  bool tell_core_of_turn(std::uint32_t number);
+  void tell_core_of_change(std::uint32_t number);
   void note_reports(std::span<const std::uint32_t> numbers);
   void note_changed_contacts();
   double keep_time(std::uint32_t a, std::uint32_t b, const std::optional<double>& until, double end);
-  std::span<const std::uint32_t> linked_with(std::uint32_t ball) override;
+  bool answers_threads() const override;
+  void linked_with(std::uint32_t ball, std::vector<std::uint32_t>& linked) override;
   std::size_t keep_partners(std::uint32_t ball, std::span<std::uint32_t> others) override;
   double unchanged_until(std::uint32_t a, std::uint32_t b) override;
   Result<double> recheck(std::uint32_t a, std::uint32_t b) override;
@@ -175,14 +196,17 @@ class alignas(128) EventProcessor final : public core::Host {
   Counters& counters_of(std::uint32_t number) { return core().is_ghost(number) ? of_ghosts_ : counters_; }
 
   Result<void> recertify_all();
+  Result<void> probe(std::span<const std::uint32_t> numbers, ProbeCause cause, PoolLease& work);
   Bodies& bodies() { return state_->bodies; }
   const Bodies& bodies() const { return state_->bodies; }
   ContactGraph& contacts() { return state_->contacts; }
   const ContactGraph& contacts() const { return state_->contacts; }
 
   void note_probes(std::span<const std::uint32_t> numbers, ProbeCause cause);
+  void turn(std::uint32_t number, const Vec3& velocity);
   void turn_reported(std::uint32_t number, bool turns = false);
   Result<void> recertify_dirty();
+  Result<void> probe_dirty(PoolLease& lease);
 
   // rechecks.cpp
   Result<std::optional<double>> check_pair(std::uint32_t a, std::uint32_t b);
@@ -214,8 +238,9 @@ class alignas(128) EventProcessor final : public core::Host {
   Counters of_ghosts_;  ///< work on ghosts of a rank's part
   Reports reports_;
   PairTimes known_;  ///< of pairs that are near
+  Workers* workers_ = nullptr;
   // Members only to reuse their memory.
-  std::vector<std::uint32_t> round_, partners_;
+  std::vector<std::uint32_t> round_;
 };
 
 }  // namespace kinesphere

@@ -55,34 +55,33 @@ Error no_rotation_probe(BodyId body, std::string_view call) {
 }  // namespace
 
 Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double time,
-                                                          std::span<const std::uint32_t> numbers) {
-  PoolLease alone;
-  PoolLease& lease = lease_ != nullptr ? *lease_ : alone;
+                                                          std::span<const std::uint32_t> numbers,
+                                                          PoolLease& work) {
   if (numbers.size() <= few_reports && profile_ == nullptr) {
     if (take_few(bodies, time, numbers)) return std::span<const Violation>();
   } else {
-    ask_for(bodies, time, numbers, lease);
+    ask_for(bodies, time, numbers, work);
   }
   violations_.clear();
   ask_rotations(bodies, time);
-  const std::size_t bad = first_bad(bodies, time, lease);
+  const std::size_t bad = first_bad(bodies, time, work);
   if (bad < ids_.size()) return check(bodies, time, bad).error();
-  apply_all(bodies, time, lease);
+  apply_all(bodies, time, numbers, work);
   return std::span<const Violation>(violations_);
 }
 
 Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, double time,
                                                          std::span<const std::uint32_t> numbers) {
   PoolLease alone;
-  PoolLease& lease = lease_ != nullptr ? *lease_ : alone;
-  ask_for(bodies, time, numbers, lease);
+  ask_for(bodies, time, numbers, alone);
   std::vector<std::uint32_t> broken;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const Body& body = bodies[numbers[k]];
     if (!is_valid_report(states_[k], bodies.definition()))
       return check_report(states_[k], ids_[k], time, bodies.definition(), call_).error();
     move_to_nearest_image(bodies.space(), body.bound, time, states_[k]);
-    if (certainly_keeps(body.bound, time, states_[k], body.radius)) continue;
+    if (certainly_keeps(body.bound, time, states_[k], body.radius, bodies.definition().contact_tolerance))
+      continue;
     Bound after = body.bound;
     restart(after, time, states_[k]);
     if (bound_violation(body.bound, after, body.radius, {}, bodies.definition().contact_tolerance))
@@ -113,7 +112,8 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
                 bodies.radii.find(numbers[k]) == nullptr && is_valid_report(states[k], bodies.definition());
     // An invalid report stays as it is, for the error message.
     if (are_plain) move_to_nearest_image(bodies.space(), body.bound, time, states[k]);
-    are_plain = are_plain && certainly_keeps(body.bound, time, states[k], body.radius);
+    are_plain = are_plain && certainly_keeps(body.bound, time, states[k], body.radius,
+                                             bodies.definition().contact_tolerance);
   }
   if (!are_plain) {
     ids_.assign(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(count));
@@ -129,13 +129,20 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
 }
 
 void Reports::ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
-                      PoolLease& lease) {
+                      PoolLease& work) {
   ids_.resize(numbers.size());
-  states_.assign(numbers.size(), no_answer);
-  for (std::size_t k = 0; k < numbers.size(); ++k) ids_[k] = bodies.id_of(numbers[k]);
+  states_.resize(numbers.size());
+  work.parallel_for(numbers.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t k = from; k < to; ++k) {
+      ids_[k] = bodies.id_of(numbers[k]);
+      states_[k] = no_answer;
+    }
+  });
+  PoolLease alone;
+  PoolLease& asking = lease_ != nullptr ? *lease_ : alone;
   asking_ = true;
   const ScopeGuard answered([&] { asking_ = false; });
-  lease.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+  asking.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     const std::size_t count = to - from;
     (*probe_)(std::span(ids_).subspan(from, count), time, std::span(states_).subspan(from, count));
   });
@@ -192,43 +199,47 @@ Result<void> Reports::check(const Bodies& bodies, double time, std::size_t k) co
   return check_rotation(rotations_[k], ids_[k], bodies.definition(), call_);
 }
 
-void Reports::apply_all(Bodies& bodies, double time, PoolLease& lease) {
+void Reports::apply_all(Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
+                        PoolLease& lease) {
   // Few of many pending changes are removed one by one.
-  const bool are_many = 8 * ids_.size() >= bodies.changes.size();
+  const bool are_many = 8 * numbers.size() >= bodies.changes.size();
   std::mutex mutex;
-  lease.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+  std::size_t released = 0;
+  lease.parallel_for(numbers.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     std::vector<Violation> some;
+    std::size_t gone = 0;
     for (std::size_t k = from; k < to; ++k) {
-      if (!apply_plain(bodies, time, k)) apply(bodies, time, k, some);
-      if (are_many) bodies.release_change(bodies.table().number_of(ids_[k]));
+      if (!apply_plain(bodies, time, numbers[k], states_[k])) apply(bodies, time, k, some);
+      if (are_many) gone += static_cast<std::size_t>(bodies.release_change(numbers[k]));
     }
-    if (some.empty()) return;
     const std::lock_guard lock(mutex);
+    released += gone;
     violations_.insert(violations_.end(), some.begin(), some.end());
   });
   if (are_many)
-    bodies.drop_released_changes();
+    bodies.drop_released_changes(released);
   else
-    for (const BodyId id : ids_) bodies.forget_change(bodies.table().number_of(id));
+    for (const std::uint32_t number : numbers) bodies.forget_change(number);
   std::sort(violations_.begin(), violations_.end(),
             [](const Violation& a, const Violation& b) { return a.k < b.k; });
 }
 
 /// Applies a report that keeps the limits of the body, and at most gives the velocity that the caller has set
 /// just so. Returns false, and changes nothing, if that is not certain.
-bool Reports::apply_plain(Bodies& bodies, double time, std::size_t k) const {
-  const std::uint32_t number = bodies.table().number_of(ids_[k]);
+[[gnu::always_inline]] inline bool Reports::apply_plain(Bodies& bodies, double time, std::uint32_t number,
+                                                        State state) const {
   Body& body = bodies[number];
   if (body.is_rigid || body.is_sleeping() || profile_ != nullptr || bodies.radii.find(number) != nullptr)
     return false;
-  State state = states_[k];
+  const double tolerance = bodies.definition().contact_tolerance;
   move_to_nearest_image(bodies.space(), body.bound, time, state);
-  State expected = state;
   if (const Change* const change = bodies.changes.find(body)) {
-    if (change->velocity != state.velocity || change->limits != bodies.bound_limits_of(number)) return false;
-    expected.velocity = body.bound.velocity_at(time);
+    if (change->velocity != state.velocity || change->limits != bodies.bound_limits_of(number) ||
+        !certainly_stays(body.bound, time, state.position, body.radius, tolerance))
+      return false;
+  } else if (!certainly_keeps(body.bound, time, state, body.radius, tolerance)) {
+    return false;
   }
-  if (!certainly_keeps(body.bound, time, expected, body.radius)) return false;
   restart(body.bound, time, state);
   return true;
 }
@@ -260,7 +271,8 @@ void Reports::apply(Bodies& bodies, double time, std::size_t k, std::vector<Viol
   std::optional<BoundViolation> violation;
   if (body.is_rigid) violation = turn(bodies.rigid[body], body, before, k);
   if (new_velocity || before.radius != after.radius ||
-      !certainly_keeps(before, time, {after.position, after.velocity}, radius))
+      !certainly_keeps(before, time, {after.position, after.velocity}, radius,
+                       bodies.definition().contact_tolerance))
     violation = sum_of(violation, bound_violation(before, after, radius, new_velocity,
                                                   bodies.definition().contact_tolerance));
   if (violation && adopts) adopt(bodies, body, before, after, radius);

@@ -34,16 +34,18 @@ class Reports {
     lease_ = lease;
   }
   bool is_asking() const { return asking_; }
+  /// Returns the threads of ask(); nullptr if there are none.
+  PoolLease* lease() const { return lease_; }
 
   /// Sets the profile that counts probes from now on; nullptr for none. It must outlive its use here.
   void set_profile(ProbeProfile* profile) { profile_ = profile; }
   ProbeProfile* profile() const { return profile_; }
 
-  /// Probes bodies at a time, with several threads if there are, and starts their bounds anew from the
-  /// reports. Returns the violated bounds in the order of `numbers`; the span is valid until the next call.
-  /// Errors: an invalid state; then all bounds are unchanged.
-  Result<std::span<const Violation>> take(Bodies& bodies, double time,
-                                          std::span<const std::uint32_t> numbers);
+  /// Probes bodies at a time, and starts their bounds anew from the reports. Returns the violated bounds in
+  /// the order of `numbers`; the span is valid until the next call. `work`: threads that share all but the
+  /// calls of the probe, which those of ask() share. Errors: an invalid state; then all bounds are unchanged.
+  Result<std::span<const Violation>> take(Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
+                                          PoolLease& work);
   /// Probes exact bodies as take() does, without changing anything. Returns those whose reports violate their
   /// bounds. Errors: an invalid state.
   Result<std::vector<std::uint32_t>> contradicted(const Bodies& bodies, double time,
@@ -52,12 +54,12 @@ class Reports {
 
  private:
   bool take_few(Bodies& bodies, double time, std::span<const std::uint32_t> numbers);
-  void ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers, PoolLease& lease);
+  void ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers, PoolLease& work);
   std::size_t first_bad(const Bodies& bodies, double time, PoolLease& lease) const;
   Result<void> check(const Bodies& bodies, double time, std::size_t k) const;
   void ask_rotations(const Bodies& bodies, double time);
-  void apply_all(Bodies& bodies, double time, PoolLease& lease);
-  bool apply_plain(Bodies& bodies, double time, std::size_t k) const;
+  void apply_all(Bodies& bodies, double time, std::span<const std::uint32_t> numbers, PoolLease& lease);
+  bool apply_plain(Bodies& bodies, double time, std::uint32_t number, State state) const;
   void apply(Bodies& bodies, double time, std::size_t k, std::vector<Violation>& broken) const;
   static void adopt(const Bodies& bodies, Body& body, const Bound& before, const Bound& after, double radius);
   std::optional<BoundViolation> turn(RigidRecord& record, const Body& body, const Bound& before,

@@ -13,7 +13,7 @@ void Sleeping::sleep(std::uint32_t number) {
   const bool known = body.fresh(processor_.time()) && body.bound.velocity == Vec3{};
   if (!known) bodies().change_of(number).velocity = Vec3{};
   if (body.bound.time == processor_.time()) body.bound.velocity = {};
-  bodies().sleep_records.add(body, {number, limits});
+  bodies().sleep_records.add(body, number).limits = limits;
   if (known) body.stand_still();
   state_.contacts.turn_reported(number);
   processor_.events().drop_woken(bodies().id_of(number));

@@ -2,6 +2,7 @@
 // recorded.
 #include "kinesphere/world.hpp"
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <set>
@@ -18,6 +19,13 @@
 #include "world/undelivered_events.hpp"
 
 namespace kinesphere {
+namespace {
+
+/// Least number of bodies whose changes a thread checks at a time.
+constexpr std::size_t least_shared = 1024;
+
+}  // namespace
+
 World::World(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
 
 World::World(World&& other) noexcept { *this = std::move(other); }
@@ -145,14 +153,29 @@ Result<void> World::set_velocities(std::span<const BodyId> bodies, std::span<con
   check.require(velocities.size() == bodies.size(), ErrorCode::out_of_range, {"velocities"},
                 "must have one entry per body,", bodies.size(), velocities.size());
   if (check.error()) return *check.error();
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
+  const WorldDefinition& definition = engine_->definition();
+  PoolLease lease(engine_->main().workers_for(bodies.size()));
+  std::atomic<bool> are_valid = true;
+  lease.parallel_for(bodies.size(), least_shared, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t k = from; k < to; ++k)
+      if (!preconditions.may_turn(bodies[k]) || !is_valid_velocity(velocities[k], definition))
+        are_valid = false;
+  });
+  for (std::size_t k = 0; k < bodies.size() && !are_valid; ++k) {
     if (auto valid = preconditions.can_turn(bodies[k]); !valid) return valid;
-    if (auto valid = check_velocity(velocities[k], bodies[k], engine_->definition(), call); !valid)
-      return valid;
+    if (auto valid = check_velocity(velocities[k], bodies[k], definition, call); !valid) return valid;
   }
-  for (std::size_t k = 0; k < bodies.size(); ++k)
-    changing(step::SetVelocity{bodies[k], velocities[k]}).set_velocity(bodies[k], velocities[k]);
+  if (recorder_)
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      recorder_->note(*this, step::SetVelocity{bodies[k], velocities[k]});
+  changeable().changes().set_velocities(bodies, velocities, lease);
   return {};
+}
+
+Result<void> World::use_workers(Workers* workers, bool call_probe) {
+  auto idle = Preconditions(*this, "use_workers").may_advance();
+  if (idle) changeable().use_workers(workers, call_probe);
+  return idle;
 }
 
 Result<void> World::check_teleport(BodyId body, const State& state) const {
@@ -316,8 +339,17 @@ EventRange World::events(double until, Probe probe) & { return {*this, until, st
 
 void EventRange::go_on() { event_ = world_->advance(until_, probe_).value(); }
 
+/// Returns true if several threads may call the probe, if the caller permits it. Recording and profiling
+/// require calls one at a time, and a rotation probe has to be called in the order of time.
+bool World::may_probe_on_threads() const {
+  return !recorder_ && !profiling_ && !engine_->bodies().rigid.probe;
+}
+
 Result<std::optional<Event>> World::recorded_advance(double until, const Probe& probe) {
-  if (!recorder_) return changeable().advance(until, probe);
+  if (!recorder_) {
+    PoolLease lease(may_probe_on_threads() ? engine_->probing_workers() : nullptr);
+    return changeable().advance(until, probe, lease.count() > 1 ? &lease : nullptr);
+  }
   Recorder::Listener listener(*recorder_, *this, probe, until);
   auto event = changeable().advance(until, listener);
   if (event) listener.succeeded(*event);

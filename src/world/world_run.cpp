@@ -102,12 +102,7 @@ class World::Run {
     return world_.changeable().advance(until_, probe_, &lease_);
   }
 
-  /// Returns true if several threads may call the probe. Recording and profiling require calls one at a time,
-  /// and a rotation probe has to be called in the order of time.
-  bool may_ask_on_threads() const {
-    return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ &&
-           !world_.engine_->bodies().rigid.probe;
-  }
+  bool may_ask_on_threads() const { return lease_.count() > 1 && world_.may_probe_on_threads(); }
 
   Result<void> answer_one(const Event& event) {
     const auto checked = respond(event);

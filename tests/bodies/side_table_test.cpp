@@ -36,7 +36,7 @@ TEST(SideTable, HasTheRecordsOfAMap) {
       }
     } else if (random.uniform() < 0.5) {
       expected[number] = random.uniform();
-      table.add(bodies[number], {.body = number, .limits = {.acceleration_limit = expected[number]}});
+      table.add(bodies[number], number).limits.acceleration_limit = expected[number];
     } else {
       table.remove(bodies, number);  // nothing to remove
     }
@@ -56,7 +56,7 @@ TEST(SideTable, SeesRecordsThatNoBodyHas) {
   BodyTable bodies;
   for (int body = 0; body < 3; ++body) (void)bodies.take();
   SleepRecords table;
-  table.add(bodies[1], {.body = 1});
+  table.add(bodies[1], 1);
   EXPECT_TRUE(table.is_valid(bodies));
   bodies[2].sleep_number = 0;
   EXPECT_FALSE(table.is_valid(bodies)) << "two bodies with one record";

@@ -20,6 +20,7 @@
 #include "core/core.hpp"
 #include "kinesphere/certificates.hpp"
 #include "kinesphere/random.hpp"
+#include "kinesphere/workers.hpp"
 
 namespace kinesphere::core_test {
 
@@ -104,6 +105,7 @@ class BouncingBalls final : core::Host {
   std::vector<Bounce> bounces;
   std::uint64_t probes = 0;
   Counters work;
+  Workers* workers = nullptr;  ///< that share what many balls need; nullptr for none
 
   /// Plays until then. Every approach within the tolerance is a bounce.
   void play(double until) {
@@ -134,6 +136,17 @@ class BouncingBalls final : core::Host {
   /// The true ball has been put elsewhere.
   void move(std::uint32_t number) {
     core_.set_bound(number, bound(number));
+    note_change(number);
+  }
+  /// From now on the ball moves so. Its next report lies anywhere within its errors.
+  void turn(std::uint32_t number, const Vec3& velocity) {
+    truth.set_velocity(number, core_.time(), velocity);
+    Bound changed = bound(number);
+    const State now = report_of(number, core_.time());
+    const Vec3 expected = core_.balls().position(number);
+    changed.position = expected + core_.balls().nearest(now.position - expected);
+    changed.velocity = now.velocity;
+    core_.set_bound(number, changed);
     note_change(number);
   }
   /// True gap of two balls at the present (length).
@@ -190,7 +203,8 @@ class BouncingBalls final : core::Host {
     if (changed_.empty()) return;
     const std::vector<std::uint32_t> changed(changed_.begin(), changed_.end());
     changed_.clear();
-    core_.settle(changed, *this);
+    PoolLease lease(workers);
+    core_.settle(changed, *this, lease);
   }
   void note_change(std::uint32_t number) {
     changed_.insert(number);
@@ -201,7 +215,8 @@ class BouncingBalls final : core::Host {
   }
 
   // What the core asks. Walls count as a partner, core::none.
-  std::span<const std::uint32_t> linked_with(std::uint32_t) override { return {}; }
+  bool answers_threads() const override { return true; }
+  void linked_with(std::uint32_t, std::vector<std::uint32_t>&) override {}
   std::size_t keep_partners(std::uint32_t, std::span<std::uint32_t> others) override { return others.size(); }
   double unchanged_until(std::uint32_t a, std::uint32_t b) override {
     if (const auto known = put_off_.find(std::minmax(a, b)); known != put_off_.end())
@@ -261,18 +276,6 @@ class BouncingBalls final : core::Host {
     const double sinking = 0.125 * definition_.contact_tolerance;
     const double root = std::sqrt(speed_error * speed_error + 2.0 * acceleration * sinking);
     return root + speed_error > 0.0 ? 2.0 * sinking / (root + speed_error) : 1e3;
-  }
-
-  /// From now on the ball moves so. Its next report lies anywhere within its errors.
-  void turn(std::uint32_t number, const Vec3& velocity) {
-    truth.set_velocity(number, core_.time(), velocity);
-    Bound changed = bound(number);
-    const State now = report_of(number, core_.time());
-    const Vec3 expected = core_.balls().position(number);
-    changed.position = expected + core_.balls().nearest(now.position - expected);
-    changed.velocity = now.velocity;
-    core_.set_bound(number, changed);
-    note_change(number);
   }
 
   /// Lets the ball bounce off a wall that it touches and approaches. Returns when to look again.

@@ -216,6 +216,58 @@ TEST(Core, KeepsItsInvariantsWhenBallsComeAndGo) {
   }
 }
 
+/// All balls, or two of three, get other velocities together, as often as a game has frames.
+TEST(Core, KeepsItsInvariantsWhenManyBallsTurnTogether) {
+  for (const double acceleration : {0.0, 1.0})
+    for (const WorldDefinition& definition : {with_walls(), periodic(), unbounded(), flat()}) {
+      const Crowd crowd{
+          .count = 200, .least_radius = 0.05, .largest_radius = 0.4, .acceleration = acceleration};
+      BouncingBalls run(definition, {random_balls(crowd, definition, seed), seed});
+      Random random(seed);
+      for (int step = 0; step < 60; ++step) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", step " << step);
+        run.play(step / 60.0);
+        for (std::uint32_t number = 0; number < crowd.count; ++number) {
+          Vec3 velocity = 4.0 * random.point_in_ball();
+          if (definition.dimensions == 2) velocity.z = 0.0;
+          if (step % 2 == 0 || number % 3 > 0) run.turn(number, velocity);
+        }
+        ASSERT_STREQ(run.audit(), nullptr);
+        ASSERT_GE(run.least_gap(), -definition.contact_tolerance);
+      }
+      EXPECT_GT(run.bounces.size(), 10u);
+    }
+}
+
+/// The same with several threads, to the last bit.
+TEST(Core, SettlesManyBallsOnAnyNumberOfThreads) {
+  for (const WorldDefinition& definition : {with_walls(), periodic()}) {
+    const Crowd crowd{.count = 4000, .least_radius = 0.05, .largest_radius = 0.15};
+    const std::vector<TrueBall> balls = random_balls(crowd, definition, seed);
+    const auto play = [&](Workers* workers) {
+      BouncingBalls run(definition, {balls, seed});
+      run.workers = workers;
+      Random random(seed);
+      for (int step = 0; step < 6; ++step) {
+        run.play(step / 60.0);
+        for (std::uint32_t number = 0; number < crowd.count; ++number)
+          run.turn(number, 4.0 * random.point_in_ball());
+      }
+      run.play(0.1);
+      std::vector<std::tuple<double, double, std::uint32_t>> all{{double(run.bounces.size()), 0.0, 0}};
+      for (const core::Ball& ball : run.core().balls().all())
+        all.emplace_back(ball.due, ball.own, ball.about);
+      return all;
+    };
+    const auto expected = play(nullptr);
+    EXPECT_GT(std::get<0>(expected.front()), 100.0);
+    for (const int threads : {1, 2, 3}) {
+      Workers workers = Workers::create(threads).value();
+      EXPECT_EQ(play(&workers), expected) << threads << " threads";
+    }
+  }
+}
+
 /// In a small box, regions are as wide as images permit, and all neighbours are met in several images.
 TEST(Core, FindsImpactsOfBallsThatFillAPeriodicBox) {
   WorldDefinition definition = periodic();
@@ -284,12 +336,15 @@ constexpr double never = std::numeric_limits<double>::infinity();
 class QuietHost : public core::Host {
  public:
   explicit QuietHost(const WorldDefinition& definition) : core(definition) {}
-  void settle(std::uint32_t number) { core.settle(std::span(&number, 1), *this); }
+  void settle(std::uint32_t number) { core.settle(std::span(&number, 1), *this, alone); }
+
+  PoolLease alone;
 
   core::Core core;
 
  private:
-  std::span<const std::uint32_t> linked_with(std::uint32_t) override { return {}; }
+  bool answers_threads() const override { return false; }
+  void linked_with(std::uint32_t, std::vector<std::uint32_t>&) override {}
   std::size_t keep_partners(std::uint32_t, std::span<std::uint32_t> others) override { return others.size(); }
   double unchanged_until(std::uint32_t, std::uint32_t) override { return never; }
   Result<double> recheck(std::uint32_t, std::uint32_t) override { return never; }
@@ -311,12 +366,12 @@ class TwoBalls final : public QuietHost {
                  false);
       core.set_kind(number, !are_neighbours, false, true);
     }
-    core.settle(partners_, *this);
+    core.settle(partners_, *this, alone);
   }
 
  private:
-  std::span<const std::uint32_t> linked_with(std::uint32_t ball) override {
-    return std::span(partners_).subspan(ball, 1);
+  void linked_with(std::uint32_t ball, std::vector<std::uint32_t>& linked) override {
+    linked.push_back(partners_[ball]);
   }
   std::size_t keep_partners(std::uint32_t, std::span<std::uint32_t> others) override {
     return are_neighbours_ ? others.size() : 0;

@@ -328,19 +328,14 @@ TEST(NearLanes, RejectWhatQuickRejectRejects) {
               for (std::uint32_t& number : list) number = static_cast<std::uint32_t>(random.bits() % 100);
               const auto self = static_cast<std::uint32_t>(random.bits() % 100);
               const double duration = std::abs(numbers(random, kind)), margin = 1e-7;
-              const core::NearQuery query{0.25,
+              const core::NearQuery query{{0.25, margin, 15.0 * margin, grows, balls.drifts(), &periods},
                                           duration,
                                           balls.position(self),
                                           balls.velocity(self),
                                           balls[self].radius + balls.growth(self) + margin,
-                                          margin,
-                                          15.0 * margin,
                                           balls.growth_speed(self),
                                           balls[self].acceleration_limit,
-                                          balls.plan(self),
-                                          grows,
-                                          balls.drifts(),
-                                          &periods};
+                                          balls.plan(self)};
               std::array<double, core::most_lanes> apart;
               const std::uint32_t found =
                   core::may_meet(balls.all().data(), list.data(), list.size(), query, apart.data());
@@ -370,6 +365,17 @@ TEST(NearLanes, RejectWhatQuickRejectRejects) {
                 if (kind == 3 && !pair.is_near(17.0 * margin)) certified[apart[k] > 0.0] += 1;
               }
               EXPECT_EQ(list.size() == 32 ? 0u : found >> list.size(), 0u);
+              // The same of pairs, to the last bit.
+              balls[self].own = 0.25 + duration;
+              if (list.empty() || balls[self].own - 0.25 != duration) continue;
+              const std::size_t count = list.size();
+              list.resize((count + core::group_lanes - 1) / core::group_lanes * core::group_lanes, self);
+              const std::vector<std::uint32_t> firsts(list.size(), self);
+              std::vector<double> of_pairs(list.size());
+              core::pairs_stay_apart(balls.all().data(), firsts.data(), list.data(), list.size(), query.pairs,
+                                     of_pairs.data());
+              for (std::size_t k = 0; k < count; ++k)
+                EXPECT_EQ(of_pairs[k], (found >> k & 1) != 0 ? apart[k] : infinity) << step << " " << k;
             }
             EXPECT_LE(certified[0], certified[1] / 20) << "of " << certified[1];
           }

@@ -29,7 +29,7 @@ TEST_F(DirtyListTest, HasEachBodyOnceInOrder) {
 }
 
 TEST_F(DirtyListTest, SortsAndDropsBodiesThatAreClean) {
-  bodies_[5].mark_recertified();
+  list_.forget(bodies_[5]);
   EXPECT_EQ(list_.sort(bodies_), (Numbers{1, 2, 4}));
   list_.add(bodies_, 5);
   list_.add(bodies_, 0);
@@ -37,7 +37,7 @@ TEST_F(DirtyListTest, SortsAndDropsBodiesThatAreClean) {
 }
 
 TEST_F(DirtyListTest, ABodyThatBecameCleanAndDirtyAgainIsSortedOnce) {
-  bodies_[4].mark_recertified();
+  list_.forget(bodies_[4]);
   list_.add(bodies_, 4);
   EXPECT_EQ(list_.numbers(), (Numbers{4, 1, 5, 2, 4}));
   EXPECT_EQ(list_.sort(bodies_), (Numbers{1, 2, 4, 5}));

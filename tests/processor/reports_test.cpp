@@ -20,7 +20,10 @@ class ReportsTest : public testing::Test {
     bodies[number].bound = bound_now(body, 0.0);
     answers.push_back({body.position, body.velocity});
   }
-  auto take(const Numbers& numbers, double time) { return reports.take(bodies, time, numbers); }
+  auto take(const Numbers& numbers, double time) {
+    PoolLease alone;
+    return reports.take(bodies, time, numbers, alone);
+  }
 
   Bodies bodies{WorldDefinition{}};
   std::vector<State> answers;  ///< by number
@@ -100,7 +103,8 @@ TEST_F(ReportsTest, GiveBodiesTheRadiiThatTheyHaveByThen) {
 
 TEST_F(ReportsTest, OfSleepingBodiesStandStill) {
   add({.acceleration_limit = 1.0});
-  bodies.sleep_records.add(bodies[0], {0, motion_limits_of(bodies.definition_of(0))});
+  const MotionLimits limits = motion_limits_of(bodies.definition_of(0));
+  bodies.sleep_records.add(bodies[0], 0).limits = limits;
   answers[0].velocity = {0.5, 0, 0};
   ASSERT_TRUE(take({0}, 1.0));
   EXPECT_TRUE(bodies[0].stands_still());

@@ -1,11 +1,16 @@
-// World::run with several threads: events equal to those of a loop over advance(), to the last bit.
+// Several threads, by World::run and by World::use_workers: events equal to those of a loop over advance() on
+// one thread, to the last bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "kinesphere/kinesphere.hpp"
@@ -173,6 +178,162 @@ TEST(RunsThatWereInterrupted, LeaveBodiesWhereQueriesFindThem) {
   }
   EXPECT_GT(interrupted, 10u);
   EXPECT_EQ(not_found, 0u);
+}
+
+/// Crowds that are steered: in each frame, most velocities change.
+struct Steered {
+  WorldDefinition world{};
+  double acceleration_limit = 0.0;
+  bool sensors = false, shapes = false, radii = false;
+  bool filters = false;    ///< a pair filter, which is asked in one thread
+  bool irregular = false;  ///< some have turned before, and the order is any
+};
+
+/// What a steered crowd has seen: its events, counts and snapshot.
+struct Seen {
+  std::uint64_t hash = 0;
+  std::size_t events = 0;
+  std::uint64_t probes = 0, certificates = 0, starts = 0;
+  std::vector<std::byte> snapshot{};
+  std::set<std::thread::id> probed_in{};
+
+  bool operator==(const Seen& other) const {
+    return hash == other.hash && events == other.events && probes == other.probes &&
+           certificates == other.certificates && starts == other.starts && snapshot == other.snapshot;
+  }
+};
+
+constexpr std::uint32_t steered = 5000;
+
+Seen steer(const Steered& kind, Workers* workers, bool call_probe) {
+  World world = World::create(kind.world).value();
+  world.use_workers(workers, call_probe).value();
+  if (kind.filters)
+    world.set_pair_filter([](BodyId a, BodyId b) { return (a.index + b.index) % 5 > 0; }).value();
+  if (kind.sensors) world.set_sensor(1, {.distances = {0.1}}).value();
+  Random random(5);
+  std::vector<BodyDefinition> bodies;
+  for (std::uint32_t k = 0; k < steered; ++k) {
+    const Vec3 place{k % 18 + 0.5, k / 18 % 18 + 0.5, k / 324 + 0.5};
+    BodyDefinition body{.radius = 0.3, .position = place * 0.75, .velocity = 6.0 * random.point_in_ball()};
+    if (k % 3 > 0) body.acceleration_limit = kind.acceleration_limit;
+    if (kind.sensors && k % 4 == 0) body.sensor_class = 1;
+    if (kind.radii && k % 5 == 0) body.radius_rate = 0.05;
+    bodies.push_back(body);
+  }
+  const std::vector<BodyId> ids = world.add_all(bodies).value();
+  for (int k = 0; kind.shapes && k < 20; ++k)
+    world.add_static({.shape = Ball{13.0 * Vec3{random.uniform(), random.uniform(), random.uniform()}, 0.5}})
+        .value();
+  std::vector<Vec3> accelerations(steered);
+  double began = 0.0;
+  Seen seen;
+  std::mutex mutex;
+  const auto state = [&](std::size_t k, double time) {
+    const double s = time - began;
+    return State{bodies[k].position + (bodies[k].velocity + accelerations[k] * (0.5 * s)) * s,
+                 bodies[k].velocity + accelerations[k] * s};
+  };
+  const Probe probe = [&](std::span<const BodyId> asked, double time, std::span<State> states) {
+    for (std::size_t k = 0; k < asked.size(); ++k) states[k] = state(asked[k].index, time);
+    const std::lock_guard lock(mutex);
+    seen.probed_in.insert(std::this_thread::get_id());
+  };
+  EventHash hash;
+  for (int frame = 1; frame <= 5; ++frame) {
+    std::vector<BodyId> turned;
+    std::vector<Vec3> velocities;
+    for (std::uint32_t k = 0; k < steered; ++k) {
+      bodies[k].position = state(k, world.time()).position;
+      bodies[k].velocity = 0.9 * bodies[k].velocity + random.point_in_ball();
+      if (bodies[k].acceleration_limit > 0.0)
+        accelerations[k] = 0.99 * kind.acceleration_limit * random.point_in_ball();
+      turned.push_back(ids[k]);
+      velocities.push_back(bodies[k].velocity);
+    }
+    began = world.time();
+    if (kind.irregular) {
+      for (std::uint32_t k = 0; k < steered; k += 50) world.set_velocity(ids[k], bodies[k].velocity).value();
+      std::reverse(turned.begin() + 100, turned.end());
+      std::reverse(velocities.begin() + 100, velocities.end());
+    }
+    world.set_velocities(turned, velocities).value();
+    for (const Event& event : world.events(frame / 60.0, probe)) {
+      hash.add(event);
+      ++seen.events;
+    }
+  }
+  seen.hash = hash.value();
+  seen.probes = world.counters().probes;
+  seen.certificates = world.counters().certificates;
+  seen.starts = world.counters().starts;
+  seen.snapshot = world.save().value();
+  return seen;
+}
+
+class WorkersOfAWorld : public testing::TestWithParam<Steered> {};
+
+const Box room{{0, 0, 0}, {13.5, 13.5, 13.5}};
+INSTANTIATE_TEST_SUITE_P(
+    Of, WorkersOfAWorld,
+    testing::Values(Steered{.world = {.contacts = ContactEvents::impacts}},
+                    Steered{.world = {.box = room}, .acceleration_limit = 2.0, .sensors = true},
+                    Steered{.world = {.box = room, .periodic = {true, true, true}},
+                            .acceleration_limit = 2.0},
+                    Steered{.world = {.box = room}, .shapes = true, .radii = true, .filters = true},
+                    Steered{.sensors = true, .irregular = true}));
+
+TEST_P(WorkersOfAWorld, ChangeNothingButTheTime) {
+  const Seen expected = steer(GetParam(), nullptr, false);
+  EXPECT_GT(expected.events, 50u);
+  for (const int threads : {1, 2, 3}) {
+    Workers workers = Workers::create(threads).value();
+    for (const bool call_probe : {false, true}) {
+      const Seen seen = steer(GetParam(), &workers, call_probe);
+      EXPECT_TRUE(seen == expected) << threads << " threads, " << call_probe;
+      if (!call_probe) {
+        EXPECT_EQ(seen.probed_in, std::set{std::this_thread::get_id()});
+      }
+      EXPECT_LE(seen.probed_in.size(), static_cast<std::size_t>(threads));
+    }
+  }
+}
+
+TEST(WorkersOfAWorldThatAreBusy, LeaveTheWorkToTheCaller) {
+  const Steered kind{.world = {.contacts = ContactEvents::impacts}};
+  const Seen expected = steer(kind, nullptr, false);
+  Workers workers = Workers::create(2).value();
+  World other = World::create({}).value();
+  Seen seen;
+  const Probe probe = [](std::span<const BodyId>, double, std::span<State>) {};
+  other.schedule({.time = 0.5}).value();
+  other
+      .run(
+          1.0, probe, [&](const Event&) { seen = steer(kind, &workers, true); }, &workers)
+      .value();
+  EXPECT_TRUE(seen == expected);
+}
+
+TEST(WorkersOfAWorldThatAreGone, ConcernNoClone) {
+  World world = World::create({}).value();
+  std::vector<BodyId> ids = world.add_all(std::vector<BodyDefinition>(steered, {.radius = 0.0})).value();
+  std::optional<World> copy;
+  {
+    Workers workers = Workers::create(2).value();
+    world.use_workers(&workers).value();
+    copy = world.clone().value();
+    const Probe probe = [&](std::span<const BodyId>, double, std::span<State> states) {
+      EXPECT_EQ(world.use_workers(nullptr).error().code, ErrorCode::probe_in_progress);
+      std::fill(states.begin(), states.end(), State{});
+    };
+    world.change(ids[0], {.motion_limits = MotionLimits{.acceleration_limit = 1.0}}).value();
+    world.queries(probe).overlapping({}, 1.0).value();
+    world.use_workers(nullptr).value();
+  }
+  for (World* each : {&world, &*copy}) {
+    ids = each->bodies();
+    each->set_velocities(ids, std::vector<Vec3>(steered, Vec3{1, 0, 0})).value();
+  }
 }
 
 std::vector<Kind> all_kinds(const std::vector<int>& threads) {

@@ -1,6 +1,8 @@
 // Velocity changes: of bodies just probed and not, in contact and free, and of several at one stop.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -218,6 +220,40 @@ TEST(VelocityChange, OfManyIsThatOfEachOrOfNone) {
   for (std::size_t k = 0; k < events.size(); ++k) {
     EXPECT_EQ(events[k].time, expected[k].time);
     EXPECT_NE(events[k].kind, EventKind::bound_violation);
+  }
+}
+
+/// Bodies pass through each other, and all turn in each frame: who touches whom at its end is known.
+TEST(SetVelocities, OfAllBodiesLeaveNoContactUntold) {
+  for (const double acceleration : {0.0, 2.0}) {
+    Playground p;
+    Random random(3);
+    std::vector<BodyId> ids;
+    for (int k = 0; k < 150; ++k)
+      ids.push_back(p.add({.radius = 0.3 + 0.4 * random.uniform(),
+                           .acceleration_limit = acceleration,
+                           .position = 6.0 * Vec3{random.uniform(), random.uniform(), random.uniform()},
+                           .velocity = 2.0 * random.point_in_ball()},
+                          acceleration * random.point_in_ball()));
+    std::size_t touching = 0;
+    for (int frame = 1; frame <= 40; ++frame) {
+      p.run(frame / 60.0);
+      std::vector<Vec3> velocities;
+      for (std::size_t a = 0; a < ids.size(); ++a) {
+        const auto partners = p.world.touching(ids[a]).value();
+        for (std::size_t b = 0; b < a; ++b) {
+          const double gap = p.gap(ids[a], ids[b]);
+          if (std::abs(gap) < 1e-4) continue;
+          const bool touch = std::find(partners.begin(), partners.end(), ids[b]) != partners.end();
+          ASSERT_EQ(touch, gap < 0.0) << frame << ": " << a << " " << b << " " << gap;
+          touching += static_cast<std::size_t>(touch);
+        }
+        velocities.push_back(2.0 * random.point_in_ball());
+      }
+      for (std::size_t a = 0; a < ids.size(); ++a) p.set_velocity_unseen(ids[a], velocities[a]);
+      p.world.set_velocities(ids, velocities).value();
+    }
+    EXPECT_GT(touching, 1000u);
   }
 }
 

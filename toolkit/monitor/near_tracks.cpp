@@ -182,7 +182,7 @@ std::span<const NearTracks::Meeting> NearTracks::meetings(std::uint32_t track, d
   std::size_t count = 0;
   const auto find_all = [&] {
     for (std::uint32_t ball = tracks_[track].first_ball; ball != none; ball = next_[ball])
-      find_meetings(ball, std::span(others).first(count), now, duration);
+      find_meetings(ball, std::span(others).first(count), duration);
     count = 0;
   };
   for (const std::uint32_t other : near(track))
@@ -195,22 +195,16 @@ std::span<const NearTracks::Meeting> NearTracks::meetings(std::uint32_t track, d
 }
 
 /// Appends the meetings of a ball with some others.
-void NearTracks::find_meetings(std::uint32_t ball, std::span<const std::uint32_t> others, double now,
-                               double duration) {
+void NearTracks::find_meetings(std::uint32_t ball, std::span<const std::uint32_t> others, double duration) {
   const BoundAt zone = balls_.bound_now(ball);
-  const core::NearQuery query{.now = now,
+  const core::NearQuery query{.pairs = balls_.pair_query(tolerance_, 0.0),
                               .duration = duration,
                               .position = zone.centre,
                               .velocity = zone.velocity,
                               .radius = zone.radius + tolerance_,
-                              .margin = tolerance_,
-                              .near = 0.0,
                               .speed = zone.speed,
                               .growth = zone.growth,
-                              .plan = zone.acceleration,
-                              .grows = balls_.any_grows(),
-                              .drifts = balls_.drifts(),
-                              .periods = &balls_.periods()};
+                              .plan = zone.acceleration};
   std::array<double, core::most_lanes> apart;
   for (std::uint32_t left =
            core::may_meet(balls_.all().data(), others.data(), others.size(), query, apart.data());

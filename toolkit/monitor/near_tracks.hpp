@@ -94,7 +94,7 @@ class NearTracks {
   std::uint32_t ball_of(std::uint32_t track, std::size_t k) const;
   void leave(std::uint32_t track);
   void find(std::uint32_t track);
-  void find_meetings(std::uint32_t ball, std::span<const std::uint32_t> others, double now, double duration);
+  void find_meetings(std::uint32_t ball, std::span<const std::uint32_t> others, double duration);
   std::vector<std::vector<Saved>> saved() const;
 
   double tolerance_;

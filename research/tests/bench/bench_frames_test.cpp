@@ -71,7 +71,7 @@ TEST_F(BenchFrames, ACrowdThatIsSteeredStandsBesideAGrid) {
   const BenchRows table = BenchTest::table("steered.csv");
   ASSERT_EQ(table.size(), 1u + 2);
   for (std::size_t row = 0; row < 2; ++row)
-    for (const char* column : {"grid", "velocities", "push", "game"})
+    for (const char* column : {"grid", "velocities", "push", "game", "two_threads"})
       EXPECT_GT(csv_number(table, row, column), 0.0);
 }
 
