@@ -134,20 +134,27 @@ class Bodies {
   /// Resets the image count of the body; call when the caller sets its position.
   void count_images_anew(std::uint32_t number) {
     if (space_.repeats()) images[number].image = {};
+    if (space_.slides()) rows[number] = 0.0;
   }
   /// Moves the body to the image in which it lies in the primary box. Requires periodic space.
   void wrap_to_primary(std::uint32_t number, double now);
+  /// Moves the body to the image in which it is nearest to the centre of its safe region, in the primary box.
+  void move_to_image_of(std::uint32_t number, const Vec3& centre, double now);
+  /// Returns a velocity of the body that the caller gives with a position of now, in the image of its bound.
+  Vec3 velocity_in_image(std::uint32_t number, const Vec3& velocity) const {
+    return space_.slides() ? velocity + Vec3{rows[number] * space_.slide_speed(), 0.0, 0.0} : velocity;
+  }
 
   /// Serializes all fields except the definition and what follows from it, the tag, and the pair filter.
   /// Bodies that are read get ids with tag 0.
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
-    auto& [changes, sleep_records, filters, masses, radii, images, shapes, rigid, sensors, common_reach,
+    auto& [changes, sleep_records, filters, masses, radii, images, rows, shapes, rigid, sensors, common_reach,
            definition, space, enclosure, table] = self;
     auto& [bodies, live_count, free, tag, names] = table;
     auto& [by_number, pair_filter, any] = filters;
-    archive(bodies, live_count, changes, sleep_records, by_number, masses, radii, images, free, shapes, rigid,
-            sensors, common_reach, any);
+    archive(bodies, live_count, changes, sleep_records, by_number, masses, radii, images, rows, free, shapes,
+            rigid, sensors, common_reach, any);
     if constexpr (!std::is_const_v<Self>) tag = 0;
   }
   /// Returns the name of the part that no sequence of calls could have produced, or nullptr if there is none.
@@ -161,6 +168,9 @@ class Bodies {
   SparseColumn<double> masses{BodyDefinition{}.mass};  ///< for events; infinite for static bodies
   ChangingRadii radii;
   std::vector<PeriodicImage> images;  ///< by body number; empty unless space is periodic
+  /// By body number, empty unless images slide: how many rows up y the image of the bound is from that of the
+  /// last report. A whole number.
+  std::vector<double> rows;
   Shapes shapes;
   RigidBodies rigid;
   SensorTable sensors;
@@ -171,6 +181,7 @@ class Bodies {
  private:
   std::uint32_t describe(std::uint32_t number, const BodyDefinition& definition, double now);
   void take_velocity_error(std::uint32_t number);
+  void move_to_image(std::uint32_t number, const Vec3& shift, double now);
   bool filters_allow(std::uint32_t a, std::uint32_t b) const;
   bool bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const;
   bool is_valid(std::uint32_t number, double now) const;

@@ -19,6 +19,8 @@ class Balls {
 
   double time() const { return now_; }
   void set_time(double time) { now_ = time; }
+  /// Images have slid so far (Periods).
+  void set_slide(double slide) { periods_.slide = slide; }
   const Periods& periods() const { return periods_; }
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(balls_.size()); }
@@ -124,7 +126,10 @@ class Balls {
     return balls_[number].acceleration_limit == 0.0 &&
            (drifts_.empty() || drifts_[number].growth_speed == 0.0);
   }
+  /// Returns how many rows of images the nearest image is away.
+  double rows(const Vec3& way) const { return nearest_count(way.y, periods_.inverse.y); }
   Vec3 nearest(Vec3 way) const {
+    if (periods_.slides()) way.x -= periods_.slide * rows(way);
     if (periods_.any)
       for (int axis = 0; axis < 3; ++axis)
         way[axis] = nearest_image(way[axis], periods_.length[axis], periods_.inverse[axis]);

@@ -109,16 +109,21 @@ HWY_INLINE V limits(D d, const Ball* balls, const std::uint32_t* n) {
 #endif
 using V = hn::Vec<D>;
 
-HWY_INLINE V image(D d, V way, double period, double inverse) {
+HWY_INLINE V image_count(D d, V way, double inverse) {
   const V rounder = hn::Set(d, 0x1.8p52);
-  const V whole = hn::Sub(hn::Add(hn::Mul(way, hn::Set(d, inverse)), rounder), rounder);
-  return hn::Sub(way, hn::Mul(hn::Set(d, period), whole));
+  return hn::Sub(hn::Add(hn::Mul(way, hn::Set(d, inverse)), rounder), rounder);
+}
+HWY_INLINE V image(D d, V way, double period, double inverse) {
+  return hn::Sub(way, hn::Mul(hn::Set(d, period), image_count(d, way, inverse)));
 }
 HWY_INLINE V dot(V a, V b, V c, V e, V f, V g) {
   return hn::Add(hn::Add(hn::Mul(a, e), hn::Mul(b, f)), hn::Mul(c, g));
 }
 
 using M = hn::Mask<D>;
+
+/// Of neighbours: there are none, they repeat with the periods, or these slide as well.
+enum class Images { none, repeat, slide };
 
 HWY_INLINE std::uint32_t bits_of(D d, M mask) {
   std::uint8_t bits[8] = {};
@@ -135,7 +140,7 @@ struct RelativeMotions {
   V square, approach, speed;  ///< |X|^2, -X V, |V|^2
   V passing;                  ///< |X x V|^2
 
-  template <bool drifts, bool repeats>
+  template <bool drifts, Images images>
   HWY_INLINE static RelativeMotions of(D d, const Ball* balls, const std::uint32_t* n, const NearQuery& q) {
     static_assert(grows || !drifts);
     Neighbours<V> b = load<V>(d, balls, n);
@@ -158,12 +163,19 @@ struct RelativeMotions {
     m.x = hn::Sub(hn::Set(d, q.position.x), b.x);
     m.y = hn::Sub(hn::Set(d, q.position.y), b.y);
     m.z = hn::Sub(hn::Set(d, q.position.z), b.z);
-    if constexpr (repeats) {
+    [[maybe_unused]] V rows = hn::Zero(d);
+    if constexpr (images == Images::slide) {
+      rows = image_count(d, m.y, q.periods->inverse.y);
+      m.x = hn::Sub(m.x, hn::Mul(hn::Set(d, q.periods->slide), rows));
+    }
+    if constexpr (images != Images::none) {
       m.x = image(d, m.x, q.periods->length.x, q.periods->inverse.x);
       m.y = image(d, m.y, q.periods->length.y, q.periods->inverse.y);
       m.z = image(d, m.z, q.periods->length.z, q.periods->inverse.z);
     }
     m.u = hn::Sub(hn::Set(d, q.velocity.x), b.u);
+    if constexpr (images == Images::slide)
+      m.u = hn::Sub(m.u, hn::Mul(hn::Set(d, q.periods->slide_speed), rows));
     m.v = hn::Sub(hn::Set(d, q.velocity.y), b.v);
     m.w = hn::Sub(hn::Set(d, q.velocity.z), b.w);
     m.start = hn::Add(b.radius, hn::Set(d, q.radius));
@@ -266,44 +278,45 @@ HWY_INLINE V stay_apart_for(D d, const RelativeMotions<grows>& pairs, const Near
   return hn::IfThenElseZero(hn::Gt(pairs.square, hn::Mul(near, near)), time);
 }
 
-template <bool grows, bool drifts, bool repeats>
+template <bool grows, bool drifts, Images images>
 HWY_INLINE std::uint32_t group(const Ball* balls, const std::uint32_t* n, const NearQuery& q, double* apart) {
   const D d;
-  const auto pairs = RelativeMotions<grows>::template of<drifts, repeats>(d, balls, n, q);
+  const auto pairs = RelativeMotions<grows>::template of<drifts, images>(d, balls, n, q);
   const M meet = hn::Not(pairs.stay_apart(d, hn::Set(d, q.duration)));
   const std::uint32_t found = bits_of(d, meet) & ((1u << hn::Lanes(d)) - 1);
   if (found != 0) hn::StoreU(stay_apart_for<grows, drifts>(d, pairs, q), d, apart);
   return found;
 }
 
-template <bool grows, bool drifts, bool repeats>
+template <bool grows, bool drifts, Images images>
 std::uint32_t candidates(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                          const NearQuery& query, double* apart) {
   const std::size_t lanes = hn::Lanes(D());
   std::uint32_t found = 0;
   std::size_t k = 0;
   for (; k + lanes <= count; k += lanes)
-    found |= group<grows, drifts, repeats>(balls, neighbours + k, query, apart + k) << k;
+    found |= group<grows, drifts, images>(balls, neighbours + k, query, apart + k) << k;
   if (k < count) {
     std::uint32_t rest[8];
     for (std::size_t lane = 0; lane < lanes; ++lane) rest[lane] = neighbours[k + lane < count ? k + lane : k];
-    found |= (group<grows, drifts, repeats>(balls, rest, query, apart + k) & ((1u << (count - k)) - 1)) << k;
+    found |= (group<grows, drifts, images>(balls, rest, query, apart + k) & ((1u << (count - k)) - 1)) << k;
   }
   return found;
 }
 
-template <bool repeats>
+template <Images images>
 std::uint32_t candidates(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                          const NearQuery& query, double* apart) {
-  if (query.drifts != nullptr) return candidates<true, true, repeats>(balls, neighbours, count, query, apart);
-  return query.grows ? candidates<true, false, repeats>(balls, neighbours, count, query, apart)
-                     : candidates<false, false, repeats>(balls, neighbours, count, query, apart);
+  if (query.drifts != nullptr) return candidates<true, true, images>(balls, neighbours, count, query, apart);
+  return query.grows ? candidates<true, false, images>(balls, neighbours, count, query, apart)
+                     : candidates<false, false, images>(balls, neighbours, count, query, apart);
 }
 
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                        const NearQuery& query, double* apart) {
-  return query.periods->any ? candidates<true>(balls, neighbours, count, query, apart)
-                            : candidates<false>(balls, neighbours, count, query, apart);
+  if (query.periods->slides()) return candidates<Images::slide>(balls, neighbours, count, query, apart);
+  return query.periods->any ? candidates<Images::repeat>(balls, neighbours, count, query, apart)
+                            : candidates<Images::none>(balls, neighbours, count, query, apart);
 }
 
 using F = hn::CappedTag<float, RegionBlock::lanes>;

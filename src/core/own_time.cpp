@@ -79,10 +79,16 @@ double Core::keeps_image(std::uint32_t number) const {
   return time;
 }
 
-/// Returns a time for which the ball stays in its safe region from now on, where its image is certain.
+/// Returns a time for which the last search of the ball holds from now on, in images that slide.
+double Core::searched_for(std::uint32_t number) const {
+  return space_.slides() ? std::max(search_ends_[number] - balls_.time(), 0.0) : infinity;
+}
+
+/// Returns a time for which the ball stays in its safe region from now on, where its image is certain and its
+/// last search holds.
 double Core::stays(std::uint32_t number) const {
   const double stay = stays_inside(number);
-  return balls_.periods().any ? std::min(stay, keeps_image(number)) : stay;
+  return balls_.periods().any ? std::min({stay, keeps_image(number), searched_for(number)}) : stay;
 }
 
 /// Returns a time for which the centre stays in the safe region from now on.

@@ -136,7 +136,11 @@ std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32
 double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const {
   const BoundAt own = balls_.bound_now(number);
   BoundAt other = balls_.bound_now(neighbour);
-  if (balls_.periods().any) other.centre = own.centre + balls_.nearest(other.centre - own.centre);
+  if (balls_.periods().any) {
+    const Vec3 way = other.centre - own.centre;
+    other.centre = own.centre + balls_.nearest(way);
+    if (space_.slides()) other.velocity.x -= balls_.rows(way) * space_.slide_speed();
+  }
   const QuickReject pair(own, other);
   // What is near is never put off here: only the host remembers that it has been.
   if (pair.is_near(tolerance_)) return balls_.time();

@@ -97,7 +97,8 @@ Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, Probe
   if (cause != ProbeCause::change) note_reports(numbers);
   for (const auto& [k, velocity, violation, acceleration_limit] : *broken) {
     Sphere reported = sphere(numbers[k]);
-    reported.state.velocity = velocity;
+    const Vec3 stored = bodies()[numbers[k]].bound.centre_at(time_);
+    reported.state.velocity = bodies().space().velocity_in_row(velocity, stored, reported.state.position);
     events_.queue(violation_event(time_, reported, violation, acceleration_limit));
     contacts().set_largest_acceleration(numbers[k], bodies().largest_acceleration(numbers[k]));
     invalidate(numbers[k]);
@@ -157,7 +158,7 @@ void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
   if (body.is_sleeping()) Sleeping(*state_, *this).wake(number);
   if (!body.fresh(time_)) bodies().change_of(number).velocity = velocity;
   // A body with a report of now moves on with it at once, also if it awaits another report, having slept.
-  if (body.bound.time == time_) body.bound.velocity = velocity;
+  if (body.bound.time == time_) body.bound.velocity = bodies().velocity_in_image(number, velocity);
   turn_reported(number, true);
 }
 
@@ -209,8 +210,9 @@ void EventProcessor::turn_back(const Event& crossing) {
 }
 
 void EventProcessor::note_response() {
-  events_.note_response(contacts(),
-                        [this](std::uint32_t number) { return motion_at(bodies(), time_, number); });
+  events_.note_response(contacts(), [this](std::uint32_t number, const Vec3& place) {
+    return motion_at(bodies(), time_, number, place);
+  });
 }
 
 Result<void> EventProcessor::recertify_all() {

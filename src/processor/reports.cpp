@@ -18,9 +18,22 @@ constexpr std::size_t reports_at_once = 512;
 
 constexpr std::size_t few_reports = 2;
 
-/// Moves a report to the image that is nearest to where the bound expects its body.
-inline void move_to_nearest_image(const Space& space, const Bound& bound, double time, State& report) {
-  if (space.repeats()) report.position += space.shift_to_nearest(report.position, bound.centre_at(time));
+/// Moves a report to the image that is nearest to where the bound expects its body. Returns the shift.
+inline Vec3 move_to_nearest_image(const Space& space, const Bound& bound, double time, State& report) {
+  if (!space.repeats()) return {};
+  const Vec3 shift = space.shift_to_nearest(report.position, bound.centre_at(time), time);
+  space.move(report, shift);
+  return shift;
+}
+
+/// Notes by how much a report has been moved.
+inline void note_shift(Bodies& bodies, std::uint32_t number, const Vec3& shift) {
+  if (bodies.space().slides()) bodies.rows[number] = bodies.space().rows_of(shift);
+}
+
+/// Returns the size (length / time) of what a velocity is computed from where images slide.
+double speed_of_terms(const Space& space, const Vec3& reported) {
+  return space.slides() ? norm(reported) + std::abs(space.slide_speed()) : 0.0;
 }
 
 std::optional<BoundViolation> sum_of(const std::optional<BoundViolation>& a,
@@ -81,11 +94,12 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
     const Body& body = bodies[numbers[k]];
     if (!is_valid_report(states_[k], bodies.definition()))
       return check_report(states_[k], ids_[k], time, bodies.definition(), call_).error();
+    const double terms = speed_of_terms(bodies.space(), states_[k].velocity);
     move_to_nearest_image(bodies.space(), body.bound, time, states_[k]);
     if (certainly_keeps(body.bound, time, states_[k], body.radius)) continue;
     Bound after = body.bound;
     restart(after, time, states_[k]);
-    if (bound_violation(body.bound, after, body.radius, {}, bodies.definition().contact_tolerance))
+    if (bound_violation(body.bound, after, body.radius, {}, bodies.definition().contact_tolerance, terms))
       broken.push_back(numbers[k]);
   }
   return broken;
@@ -106,14 +120,16 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
     (*probe_)(std::span(ids).first(count), time, std::span(states).first(count));
   }
   bool are_plain = true;
+  std::array<State, few_reports> moved = states;
+  std::array<Vec3, few_reports> shifts;
   for (std::size_t k = 0; k < count && are_plain; ++k) {
     const Body& body = bodies[numbers[k]];
     are_plain = body.change_number == Body::none && !body.is_sleeping() &&
                 (!body.is_rigid || turns_by_itself(bodies, body)) &&
                 bodies.radii.find(numbers[k]) == nullptr && is_valid_report(states[k], bodies.definition());
     // An invalid report stays as it is, for the error message.
-    if (are_plain) move_to_nearest_image(bodies.space(), body.bound, time, states[k]);
-    are_plain = are_plain && certainly_keeps(body.bound, time, states[k], body.radius);
+    if (are_plain) shifts[k] = move_to_nearest_image(bodies.space(), body.bound, time, moved[k]);
+    are_plain = are_plain && certainly_keeps(body.bound, time, moved[k], body.radius);
   }
   if (!are_plain) {
     ids_.assign(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(count));
@@ -122,7 +138,8 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
   }
   for (std::size_t k = 0; k < count; ++k) {
     Body& body = bodies[numbers[k]];
-    restart(body.bound, time, states[k]);
+    restart(body.bound, time, moved[k]);
+    note_shift(bodies, numbers[k], shifts[k]);
     if (body.is_rigid) bodies.rigid[body].report(bodies.rigid[body].at(time), time);
   }
   return true;
@@ -222,14 +239,15 @@ bool Reports::apply_plain(Bodies& bodies, double time, std::size_t k) const {
   if (body.is_rigid || body.is_sleeping() || profile_ != nullptr || bodies.radii.find(number) != nullptr)
     return false;
   State state = states_[k];
-  move_to_nearest_image(bodies.space(), body.bound, time, state);
+  const Vec3 shift = move_to_nearest_image(bodies.space(), body.bound, time, state);
   State expected = state;
   if (const Change* const change = bodies.changes.find(body)) {
-    if (change->velocity != state.velocity || change->limits != bodies.bound_limits_of(number)) return false;
+    if (change->velocity != states_[k].velocity || change->limits != bodies.bound_limits_of(number)) return false;
     expected.velocity = body.bound.velocity_at(time);
   }
   if (!certainly_keeps(body.bound, time, expected, body.radius)) return false;
   restart(body.bound, time, state);
+  note_shift(bodies, number, shift);
   return true;
 }
 
@@ -238,7 +256,7 @@ void Reports::apply(Bodies& bodies, double time, std::size_t k, std::vector<Viol
   const std::uint32_t number = bodies.table().number_of(ids_[k]);
   Body& body = bodies[number];
   State state = states_[k];
-  move_to_nearest_image(bodies.space(), body.bound, time, state);
+  note_shift(bodies, number, move_to_nearest_image(bodies.space(), body.bound, time, state));
   const bool changes_size = bodies.radii.find(number) != nullptr;
   double velocity_error = bodies.velocity_error(number);
   const Bound before = changes_size ? centre_bound(body, velocity_error) : body.bound;
@@ -249,6 +267,7 @@ void Reports::apply(Bodies& bodies, double time, std::size_t k, std::vector<Viol
       bodies.definition().adopt_observed_limits && body.change_number == Body::none && !body.is_sleeping();
   if (const Change* change = bodies.changes.find(body)) {
     new_velocity = change->velocity;
+    if (new_velocity) *new_velocity = bodies.velocity_in_image(number, *new_velocity);
     velocity_error = change->limits.velocity_error;
     body.bound = bodies.changed_bound(number, state, time);
   } else {
@@ -261,12 +280,14 @@ void Reports::apply(Bodies& bodies, double time, std::size_t k, std::vector<Viol
   if (body.is_rigid) violation = turn(bodies.rigid[body], body, before, k);
   if (new_velocity || before.radius != after.radius ||
       !certainly_keeps(before, time, {after.position, after.velocity}, radius))
-    violation = sum_of(violation, bound_violation(before, after, radius, new_velocity,
-                                                  bodies.definition().contact_tolerance));
+    violation = sum_of(
+        violation,
+        bound_violation(before, after, radius, new_velocity, bodies.definition().contact_tolerance,
+                        speed_of_terms(bodies.space(), states_[k].velocity)));
   if (violation && adopts) adopt(bodies, body, before, after, radius);
   if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, after);
   if (body.is_sleeping()) body.stand_still();
-  if (violation) broken.push_back({k, states_[k].velocity, *violation, body.bound.acceleration_limit});
+  if (violation) broken.push_back({k, state.velocity, *violation, body.bound.acceleration_limit});
 }
 
 /// Raises the acceleration limit of a body whose report has broken it to what explains the report.

@@ -21,7 +21,7 @@ class Reports {
   /// The k-th report violates the bound of its body.
   struct Violation {
     std::size_t k;
-    Vec3 velocity;  ///< as reported
+    Vec3 velocity;  ///< as reported, in the image of the bound
     BoundViolation limits;
     double acceleration_limit;  ///< of the body from now on
   };

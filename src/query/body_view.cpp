@@ -28,9 +28,11 @@ BodyView World::Engine::view(std::uint32_t number) const {
     view.box_end = box_end(number);
   }
   if (!space.repeats()) return view;
-  const auto [position, images] = space.wrapped(body.bound.position);
-  const Vec3 shift = space.shift_of(images);
+  const auto [position, images] = space.wrapped(body.bound.position, body.bound.time);
+  const Vec3 shift = space.shift_of(images, now);
   view.definition.position = view.bound.position = position;
+  view.bound.velocity -= space.velocity_of(shift);
+  view.definition.velocity -= space.velocity_of(shift);
   if (!body.has_shape()) view.shape = Ball{position, radius};
   if (view.rigid) view.rigid->body.position = position;
   view.box = {view.box.lower - shift, view.box.upper - shift};
