@@ -76,7 +76,7 @@ inline GapLimits gap_to_wall(const CollisionShape& body, const HalfSpace& inside
 }
 /// Returns the body in the form that events contain.
 Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number);
-/// Returns how the body moves in this form.
+/// Returns how the body moves in this form, in its image at this place.
 BodyMotion motion_at(const Bodies& bodies, double now, std::uint32_t number, const Vec3& place);
 /// Returns a box around the shape now, limited to existing space and cut off where no body can be.
 Box box_now(const Bodies& bodies, const CollisionShape& extent, double now);
