@@ -131,16 +131,27 @@ void Bodies::wrap_to_primary(std::uint32_t number, double now) {
     images[number] = {.middle = body.bound.position};
     return;
   }
-  move_to_image(number, -images[number].wrap(space_, body.bound.centre_at(now), now), now);
+  const Vec3 shift = -images[number].wrap(space_, body.bound.centre_at(now), now);
+  body.bound.position += shift;
+  if (space_.slides()) slide_to_image(number, shift, now);
 }
 
-void Bodies::move_to_image_of(std::uint32_t number, const Vec3& centre, double now) {
-  move_to_image(number, images[number].follow(space_, table_[number].bound.centre_at(now), centre, now), now);
+/// Completes a shift of a body to another image, where images slide: its position has been moved.
+void Bodies::slide_to_image(std::uint32_t number, const Vec3& shift, double now) {
+  Bound& bound = table_[number].bound;
+  const Vec3 velocity = space_.velocity_of(shift);
+  bound.position -= velocity * (now - bound.time);
+  bound.velocity += velocity;
+  rows[number] += space_.rows_of(shift);
 }
 
-void Bodies::move_to_image(std::uint32_t number, const Vec3& shift, double now) {
-  space_.move(table_[number].bound, shift, now);
-  if (space_.slides()) rows[number] += space_.rows_of(shift);
+void Bodies::turn_in_image(std::uint32_t number, const Vec3& velocity, double now) {
+  Bound& bound = table_[number].bound;
+  if (bound.time == now) bound.velocity = velocity_in_image(number, velocity);
+}
+
+Vec3 Bodies::sliding_velocity(std::uint32_t number, const Vec3& velocity) const {
+  return velocity + Vec3{rows[number] * space_.slide_speed(), 0.0, 0.0};
 }
 
 }  // namespace kinesphere

@@ -139,10 +139,17 @@ class Bodies {
   /// Moves the body to the image in which it lies in the primary box. Requires periodic space.
   void wrap_to_primary(std::uint32_t number, double now);
   /// Moves the body to the image in which it is nearest to the centre of its safe region, in the primary box.
-  void move_to_image_of(std::uint32_t number, const Vec3& centre, double now);
+  void move_to_image_of(std::uint32_t number, const Vec3& centre, double now) {
+    Bound& bound = table_[number].bound;
+    const Vec3 shift = images[number].follow(space_, bound.centre_at(now), centre, now);
+    bound.position += shift;
+    if (space_.slides()) slide_to_image(number, shift, now);
+  }
+  /// A body with a report of now has a velocity that the caller gives with it. Requires images that slide.
+  [[gnu::cold]] void turn_in_image(std::uint32_t number, const Vec3& velocity, double now);
   /// Returns a velocity of the body that the caller gives with a position of now, in the image of its bound.
   Vec3 velocity_in_image(std::uint32_t number, const Vec3& velocity) const {
-    return space_.slides() ? velocity + Vec3{rows[number] * space_.slide_speed(), 0.0, 0.0} : velocity;
+    return space_.slides() ? sliding_velocity(number, velocity) : velocity;
   }
 
   /// Serializes all fields except the definition and what follows from it, the tag, and the pair filter.
@@ -181,7 +188,8 @@ class Bodies {
  private:
   std::uint32_t describe(std::uint32_t number, const BodyDefinition& definition, double now);
   void take_velocity_error(std::uint32_t number);
-  void move_to_image(std::uint32_t number, const Vec3& shift, double now);
+  [[gnu::cold]] Vec3 sliding_velocity(std::uint32_t number, const Vec3& velocity) const;
+  [[gnu::cold]] void slide_to_image(std::uint32_t number, const Vec3& shift, double now);
   bool filters_allow(std::uint32_t a, std::uint32_t b) const;
   bool bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const;
   bool is_valid(std::uint32_t number, double now) const;

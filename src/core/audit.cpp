@@ -4,6 +4,7 @@
 
 #include "contact/contact_predictor.hpp"
 #include "core/core.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere::core {
 
@@ -11,8 +12,8 @@ namespace kinesphere::core {
 /// least one of some times until `end`.
 double Core::least_distance(const Ball& a, const Ball& b, double end) const {
   const Vec3 from = region_centre(a), to = region_centre(b);
-  double least = norm(balls_.nearest(to - from));
-  if (!space_.slides()) return least;
+  if (!space_.slides()) return norm(balls_.nearest(to - from));
+  double least = infinity;
   const double last = std::min(end, balls_.time() + 1.0);
   for (const double time : {balls_.time(), 0.5 * (balls_.time() + last), last})
     least = std::min(least, norm(to + space_.shift_to_nearest(to, from, time) - from));

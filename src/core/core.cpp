@@ -20,7 +20,10 @@ double region_unit(const WorldDefinition& definition) {
 }
 
 Periods periods_of(const Space& space) {
-  Periods periods{.length = space.period(), .slide_speed = space.slide_speed(), .any = space.repeats()};
+  Periods periods{.length = space.period(),
+                  .slide_speed = space.slide_speed(),
+                  .any = space.repeats(),
+                  .slides = space.slides()};
   for (int axis = 0; axis < 3; ++axis)
     if (space.repeats(axis)) periods.inverse[axis] = 1.0 / periods.length[axis];
   return periods;

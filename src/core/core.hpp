@@ -66,7 +66,8 @@ class Core {
   /// Advances the clock. Precondition: nothing is due before.
   void set_time(double time) {
     balls_.set_time(time);
-    if (space_.slides()) balls_.set_slide(space_.slide_at(time));
+    if (space_.slides()) [[unlikely]]
+      balls_.set_slide(space_.slide_at(time));
   }
   /// Returns the balls by number, and their bounds.
   const Balls& balls() const { return balls_; }
@@ -215,6 +216,9 @@ class Core {
   std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours, double duration,
                            std::span<double, most_lanes> apart) const;
   double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const;
+  double apart_until(const BoundAt& own, const BoundAt& other, double horizon) const;
+  [[gnu::cold]] double apart_in_rows_until(std::uint32_t number, std::uint32_t neighbour,
+                                           double horizon) const;
 
   // safe_regions.cpp
   Result<void> leave_region(std::uint32_t number, Host& host);
@@ -266,7 +270,6 @@ class Core {
   double stays(std::uint32_t number) const;
   double stays_inside(std::uint32_t number) const;
   double keeps_image(std::uint32_t number) const;
-  double searched_for(std::uint32_t number) const;
   double clear_of_walls(std::uint32_t number, Host& host) const;
   double clear_of_wall(std::uint32_t number, const HalfSpace& inside) const;
 

@@ -314,9 +314,9 @@ std::uint32_t candidates(const Ball* balls, const std::uint32_t* neighbours, std
 
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                        const NearQuery& query, double* apart) {
-  if (query.periods->slides()) return candidates<Images::slide>(balls, neighbours, count, query, apart);
-  return query.periods->any ? candidates<Images::repeat>(balls, neighbours, count, query, apart)
-                            : candidates<Images::none>(balls, neighbours, count, query, apart);
+  if (!query.periods->any) return candidates<Images::none>(balls, neighbours, count, query, apart);
+  return query.periods->slides ? candidates<Images::slide>(balls, neighbours, count, query, apart)
+                               : candidates<Images::repeat>(balls, neighbours, count, query, apart);
 }
 
 using F = hn::CappedTag<float, RegionBlock::lanes>;

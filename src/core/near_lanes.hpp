@@ -27,8 +27,7 @@ struct Periods {
   Vec3 inverse{};
   double slide = 0.0, slide_speed = 0.0;
   bool any = false;
-
-  bool slides() const { return slide_speed != 0.0; }
+  bool slides = false;
 };
 
 /// Returns the number of whole periods nearest to `way`. Adding and subtracting 3/2 2^52 rounds.

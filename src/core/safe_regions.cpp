@@ -57,6 +57,8 @@ double Core::widest_region(const Ball& ball) const {
     // space/space.hpp holds.
     const double room = std::max(0.25 * period - 3.0 * ball.radius - tolerance_, 0.0625 * period);
     if (period > 0.0) widest = std::min(widest, 0.33 * room);
+    if (period > 0.0 && axis == 0 && space_.slides()) [[unlikely]]
+      widest -= 0.17 * Space::most_slide * period;
   }
   return widest;
 }

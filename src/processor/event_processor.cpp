@@ -147,18 +147,14 @@ Result<SpotChecks::Census> EventProcessor::spot_check_due(std::span<const std::u
   return census;
 }
 
-void EventProcessor::invalidate(std::uint32_t number, bool turns) {
-  events_.outdate();
-  ++bodies()[number].revision;
-  dirty_.add(bodies(), number, turns);
-}
-
 void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
   Body& body = bodies()[number];
   if (body.is_sleeping()) Sleeping(*state_, *this).wake(number);
   if (!body.fresh(time_)) bodies().change_of(number).velocity = velocity;
   // A body with a report of now moves on with it at once, also if it awaits another report, having slept.
-  if (body.bound.time == time_) body.bound.velocity = bodies().velocity_in_image(number, velocity);
+  if (body.bound.time == time_) body.bound.velocity = velocity;
+  if (bodies().space().slides()) [[unlikely]]
+    bodies().turn_in_image(number, velocity, time_);
   turn_reported(number, true);
 }
 

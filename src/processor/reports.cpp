@@ -18,17 +18,16 @@ constexpr std::size_t reports_at_once = 512;
 
 constexpr std::size_t few_reports = 2;
 
-/// Moves a report to the image that is nearest to where the bound expects its body. Returns the shift.
-inline Vec3 move_to_nearest_image(const Space& space, const Bound& bound, double time, State& report) {
-  if (!space.repeats()) return {};
-  const Vec3 shift = space.shift_to_nearest(report.position, bound.centre_at(time), time);
-  space.move(report, shift);
-  return shift;
+/// Moves a report to the image that is nearest to where the bound expects its body.
+inline void move_to_nearest_image(const Space& space, const Bound& bound, double time, State& report) {
+  if (space.repeats())
+    space.move(report, space.shift_to_nearest(report.position, bound.centre_at(time), time));
 }
 
-/// Notes by how much a report has been moved.
-inline void note_shift(Bodies& bodies, std::uint32_t number, const Vec3& shift) {
-  if (bodies.space().slides()) bodies.rows[number] = bodies.space().rows_of(shift);
+/// Notes how many rows of images a report has been moved.
+inline void note_rows(Bodies& bodies, std::uint32_t number, const State& report, const State& moved) {
+  if (bodies.space().slides())
+    bodies.rows[number] = bodies.space().rows_of(moved.position - report.position);
 }
 
 /// Returns the size (length / time) of what a velocity is computed from where images slide.
@@ -71,7 +70,7 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
                                                           std::span<const std::uint32_t> numbers) {
   PoolLease alone;
   PoolLease& lease = lease_ != nullptr ? *lease_ : alone;
-  if (numbers.size() <= few_reports && profile_ == nullptr) {
+  if (numbers.size() <= few_reports && profile_ == nullptr && !bodies.space().slides()) {
     if (take_few(bodies, time, numbers)) return std::span<const Violation>();
   } else {
     ask_for(bodies, time, numbers, lease);
@@ -107,7 +106,7 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
 
 /// Probes one or two bodies, as nearly all calls do. Applies the reports if they are valid, keep the limits
 /// of the bodies, and change nothing but their bounds and known rotations, as nearly all do. Otherwise keeps
-/// them, and returns false.
+/// them, and returns false. Precondition: images do not slide.
 [[gnu::always_inline]] inline bool Reports::take_few(Bodies& bodies, double time,
                                                      std::span<const std::uint32_t> numbers) {
   std::array<BodyId, few_reports> ids;
@@ -120,16 +119,14 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
     (*probe_)(std::span(ids).first(count), time, std::span(states).first(count));
   }
   bool are_plain = true;
-  std::array<State, few_reports> moved = states;
-  std::array<Vec3, few_reports> shifts;
   for (std::size_t k = 0; k < count && are_plain; ++k) {
     const Body& body = bodies[numbers[k]];
     are_plain = body.change_number == Body::none && !body.is_sleeping() &&
                 (!body.is_rigid || turns_by_itself(bodies, body)) &&
                 bodies.radii.find(numbers[k]) == nullptr && is_valid_report(states[k], bodies.definition());
     // An invalid report stays as it is, for the error message.
-    if (are_plain) shifts[k] = move_to_nearest_image(bodies.space(), body.bound, time, moved[k]);
-    are_plain = are_plain && certainly_keeps(body.bound, time, moved[k], body.radius);
+    if (are_plain) move_to_nearest_image(bodies.space(), body.bound, time, states[k]);
+    are_plain = are_plain && certainly_keeps(body.bound, time, states[k], body.radius);
   }
   if (!are_plain) {
     ids_.assign(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(count));
@@ -138,8 +135,7 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
   }
   for (std::size_t k = 0; k < count; ++k) {
     Body& body = bodies[numbers[k]];
-    restart(body.bound, time, moved[k]);
-    note_shift(bodies, numbers[k], shifts[k]);
+    restart(body.bound, time, states[k]);
     if (body.is_rigid) bodies.rigid[body].report(bodies.rigid[body].at(time), time);
   }
   return true;
@@ -239,7 +235,7 @@ bool Reports::apply_plain(Bodies& bodies, double time, std::size_t k) const {
   if (body.is_rigid || body.is_sleeping() || profile_ != nullptr || bodies.radii.find(number) != nullptr)
     return false;
   State state = states_[k];
-  const Vec3 shift = move_to_nearest_image(bodies.space(), body.bound, time, state);
+  move_to_nearest_image(bodies.space(), body.bound, time, state);
   State expected = state;
   if (const Change* const change = bodies.changes.find(body)) {
     if (change->velocity != states_[k].velocity || change->limits != bodies.bound_limits_of(number)) return false;
@@ -247,7 +243,7 @@ bool Reports::apply_plain(Bodies& bodies, double time, std::size_t k) const {
   }
   if (!certainly_keeps(body.bound, time, expected, body.radius)) return false;
   restart(body.bound, time, state);
-  note_shift(bodies, number, shift);
+  note_rows(bodies, number, states_[k], state);
   return true;
 }
 
@@ -256,7 +252,8 @@ void Reports::apply(Bodies& bodies, double time, std::size_t k, std::vector<Viol
   const std::uint32_t number = bodies.table().number_of(ids_[k]);
   Body& body = bodies[number];
   State state = states_[k];
-  note_shift(bodies, number, move_to_nearest_image(bodies.space(), body.bound, time, state));
+  move_to_nearest_image(bodies.space(), body.bound, time, state);
+  note_rows(bodies, number, states_[k], state);
   const bool changes_size = bodies.radii.find(number) != nullptr;
   double velocity_error = bodies.velocity_error(number);
   const Bound before = changes_size ? centre_bound(body, velocity_error) : body.bound;

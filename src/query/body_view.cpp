@@ -31,8 +31,9 @@ BodyView World::Engine::view(std::uint32_t number) const {
   const auto [position, images] = space.wrapped(body.bound.position, body.bound.time);
   const Vec3 shift = space.shift_of(images, now);
   view.definition.position = view.bound.position = position;
-  view.bound.velocity -= space.velocity_of(shift);
-  view.definition.velocity -= space.velocity_of(shift);
+  if (space.slides())
+    for (Vec3* const velocity : {&view.bound.velocity, &view.definition.velocity})
+      *velocity -= space.velocity_of(shift);
   if (!body.has_shape()) view.shape = Ball{position, radius};
   if (view.rigid) view.rigid->body.position = position;
   view.box = {view.box.lower - shift, view.box.upper - shift};

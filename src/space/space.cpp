@@ -21,6 +21,7 @@ Space::Space(const WorldDefinition& definition) : flat_(definition.dimensions ==
     repeats_ = true;
   }
   slide_speed_ = definition.shear_rate * period_.y;
+  slides_ = slide_speed_ != 0.0;
   start_ = definition.start_time;
 }
 

@@ -20,8 +20,8 @@
 // away is displaced by (n S(t), n L_y), and moves by n V along x, where V is the shear rate times L_y, and S
 // is V times the time since the world began. So a shift between images holds at a time, and has a velocity.
 // S is reduced by whole periods of x, which leads to other images of the same row. What is said above holds
-// on y. It holds on x as long as images slide by no more than `most_slide` periods while a pair is examined:
-// of the room to move in, rule (2) and the widest safe regions (core/safe_regions.cpp) use less than that.
+// on y. It holds on x, too, as images slide by no more than `most_slide` periods while a pair is examined in
+// one of them, and safe regions are so much narrower there (core/safe_regions.cpp).
 #pragma once
 
 #include <algorithm>
@@ -47,7 +47,7 @@ class Space {
   const Vec3& period() const { return period_; }
 
   // Images that slide.
-  bool slides() const { return slide_speed_ != 0.0; }
+  bool slides() const { return slides_; }
   /// Speed along x (length / time) of the next row of images, up y, against that of the primary box.
   double slide_speed() const { return slide_speed_; }
   /// Returns how far (length) the next row of images, up y, is displaced along x at a time, less whole
@@ -57,24 +57,26 @@ class Space {
   static constexpr double most_slide = 0.02;
   /// Returns how many rows up y a shift leads, and the velocity of the image to which it leads.
   double rows_of(const Vec3& shift) const { return std::round(shift.y * per_period_.y); }
-  Vec3 velocity_of(const Vec3& shift) const {
-    return slides() ? Vec3{slide_speed_ * rows_of(shift), 0.0, 0.0} : Vec3{};
-  }
+  Vec3 velocity_of(const Vec3& shift) const { return {slide_speed_ * rows_of(shift), 0.0, 0.0}; }
   /// Move a state or a bound to another image, by a shift at the time of the state, or at `now`.
   void move(State& state, const Vec3& shift) const {
     state.position += shift;
-    if (slides()) state.velocity += velocity_of(shift);
+    if (slides()) [[unlikely]]
+      state.velocity += velocity_of(shift);
   }
   void move(Bound& bound, const Vec3& shift, double now) const {
     bound.position += shift;
-    if (!slides()) return;
-    const Vec3 velocity = velocity_of(shift);
-    bound.position -= velocity * (now - bound.time);
-    bound.velocity += velocity;
+    if (slides()) [[unlikely]] {
+      const Vec3 velocity = velocity_of(shift);
+      bound.position -= velocity * (now - bound.time);
+      bound.velocity += velocity;
+    }
   }
   /// Returns the velocity that a body with this velocity at `from` has in its image in the row of `to`.
   Vec3 velocity_in_row(const Vec3& velocity, const Vec3& from, const Vec3& to) const {
-    return slides() ? velocity + velocity_of(to - from) : velocity;
+    if (slides()) [[unlikely]]
+      return velocity + velocity_of(to - from);
+    return velocity;
   }
 
   /// Returns the shift at a time, in whole periods, that added to `from` gives its image nearest to `to`;
@@ -82,7 +84,8 @@ class Space {
   Vec3 shift_to_nearest(const Vec3& from, const Vec3& to, double time) const {
     Vec3 shift;
     if (!repeats_) return shift;
-    if (slides()) return sliding_shift(from, to, time);
+    if (slides()) [[unlikely]]
+      return sliding_shift(from, to, time);
     for (int axis = 0; axis < 3; ++axis)
       if (repeats(axis))
         shift[axis] = std::floor((to[axis] - from[axis]) * per_period_[axis] + 0.5) * period_[axis];
@@ -91,7 +94,8 @@ class Space {
   /// Returns the shift that shift_to_nearest() returns, by comparisons only. Precondition: the points lie in
   /// the primary box, or hardly outside.
   Vec3 shift_between_images(const Vec3& from, const Vec3& to, double time) const {
-    if (slides()) return sliding_shift(from, to, time);
+    if (slides()) [[unlikely]]
+      return sliding_shift(from, to, time);
     const auto shift = [](double way, double period) {
       if (way > 0.5 * period) return -period;
       return way < -0.5 * period ? period : 0.0;
@@ -124,7 +128,8 @@ class Space {
   }
   /// Moves a state at a time to the image in which it lies in the primary box.
   void wrap(State& state, double time) const {
-    const Wrapped place = wrapped(state.position, time);
+    if (is_primary(state.position)) return;
+    const Wrapped place = wrapped_from_outside(state.position, time);
     if (slides()) state.velocity -= velocity_of({0.0, place.images.y * period_.y, 0.0});
     state.position = place.position;
   }
@@ -180,7 +185,7 @@ class Space {
   Vec3 periods(const Vec3& counts) const {
     return {counts.x * period_.x, counts.y * period_.y, counts.z * period_.z};
   }
-  [[gnu::noinline]] Vec3 sliding_shift(const Vec3& from, const Vec3& to, double time) const;
+  [[gnu::cold]] Vec3 sliding_shift(const Vec3& from, const Vec3& to, double time) const;
   double turns_at(double time) const;
 
   Vec3 lower_{};
@@ -190,6 +195,7 @@ class Space {
   double slide_speed_ = 0.0;
   double start_ = 0.0;  ///< when images had slid by nothing
   bool repeats_ = false;
+  bool slides_ = false;
   bool flat_ = false;
 };
 
