@@ -121,7 +121,7 @@ bool Core::may_be_near(const Ball& a, float reach_of_a, const Ball& b, float rea
   if (cells_.are_near(a, reach_of_a, b, reach_of_b)) return true;
   if (!space_.slides()) return false;
   const double height = balls_.periods().length.y / unit_;
-  const double slide = 0.02 * balls_.periods().length.x / unit_;
+  const double slide = Space::most_slide * balls_.periods().length.x / unit_;
   for (const double row : {-1.0, 1.0}) {
     Ball image = b;
     image.centre[0] = a.centre[0];

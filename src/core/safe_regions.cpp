@@ -287,8 +287,8 @@ double Core::reach_across(const Ball& ball) const {
 }
 
 /// Chooses how long the search of a ball that has got a safe region holds in images that slide. They slide by
-/// half of its reach then, which makes it find few balls more, unless that is less than in the least steps of
-/// time, or more than Space::most_slide.
+/// its reach then, unless that is less than in the least steps of time, or more than Space::most_slide: a gas
+/// at a packing of 0.1 takes least time so.
 void Core::set_search_end(std::uint32_t number) {
   const Ball& ball = balls_[number];
   const double across = reach_across(ball), y = double{ball.centre[1]};
@@ -297,7 +297,7 @@ void Core::set_search_end(std::uint32_t number) {
   if (y - across > 0.0 && y + across < height) return;
   const double speed = std::abs(space_.slide_speed());
   const double least = 0x1p-49 * std::abs(balls_.time()) * speed;
-  const double slide = std::min(std::max(0.5 * double{reach(ball)} * unit_, least),
+  const double slide = std::min(std::max(double{reach(ball)} * unit_, least),
                                 Space::most_slide * balls_.periods().length.x);
   search_ends_[number] = balls_.time() + std::min(slide / speed, 1e300);
 }

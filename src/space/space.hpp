@@ -54,7 +54,7 @@ class Space {
   /// periods: at most half of one, but for rounding, which is relative to the period. Requires slides().
   double slide_at(double time) const;
   /// Images slide by at most this part of the period of x while one search, or one shift, is relied on.
-  static constexpr double most_slide = 0.02;
+  static constexpr double most_slide = 0.05;
   /// Returns how many rows up y a shift leads, and the velocity of the image to which it leads.
   double rows_of(const Vec3& shift) const { return std::round(shift.y * per_period_.y); }
   Vec3 velocity_of(const Vec3& shift) const { return {slide_speed_ * rows_of(shift), 0.0, 0.0}; }

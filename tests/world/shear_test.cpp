@@ -483,6 +483,47 @@ TEST(ShearedCrowd, TouchesAndSensesAsTheTruthDoes) {
   EXPECT_GT(crossings, 200u);
 }
 
+/// Discs in square wells: those that are in each other's are told to be, also after many have been turned back.
+TEST(ShearedCrowd, KeepsPotentialsOfSteps) {
+  const Kind kind{"wells", {{0, 0, 0}, {12, 10, 0}}, 2, 50, 0.4, 0.4, 1.0, 0.0, Frame::way, {true, true, false}};
+  Gas gas(kind, 8);
+  const double distance = 0.3;
+  const StepPotential well =
+      StepPotential::create({.distances = {distance}, .energies = {-2.0}}, gas.world.definition()).value();
+  gas.world.set_sensor(0, well.sensor()).value();
+  Ballistic motion = Ballistic::create({}).value();
+  for (const auto& [since, start] : gas.ways) motion.add(since, start).value();
+  SingleMotionSource source(motion);
+  std::size_t turned = 0, contacts = 0;
+  for (int step = 1; step <= 20; ++step) {
+    gas.world
+        .run(0.5 * step, source,
+             [&](const Event& event) {
+               const Response response = well.respond(event);
+               (event.kind == EventKind::contact_begin ? contacts : turned) +=
+                   event.kind == EventKind::contact_begin || response.turned_back ? 1 : 0;
+               return response;
+             },
+             [](const Event&) {})
+        .value();
+    const double now = gas.world.time();
+    EXPECT_TRUE(is_clean(gas.world));
+    for (std::uint32_t k = 0; k < motion.size(); ++k) gas.ways[k] = {now, motion.state(k, now)};
+    for (const BodyId body : gas.ids) {
+      const auto sensed = gas.world.sensor_overlaps(body).value();
+      for (const BodyId other : gas.ids) {
+        if (other == body) continue;
+        const double beyond = gas.gap(body.index, other.index, now) - distance;
+        const bool is_in = std::any_of(sensed.begin(), sensed.end(),
+                                       [&](const SensorOverlap& overlap) { return overlap.body == other; });
+        EXPECT_TRUE(std::abs(beyond) < 10.0 * eps || is_in == (beyond < 0.0)) << body << other << beyond;
+      }
+    }
+  }
+  EXPECT_GT(turned, 100u);
+  EXPECT_GT(contacts, 100u);
+}
+
 /// States that the world returns lie in the primary box, and have the velocities of their images.
 TEST(ShearedCrowd, ShowsBodiesInThePrimaryBox) {
   WorldDefinition definition{.box = Box{{0, 0, 0}, {10, 10, 10}},
