@@ -30,7 +30,8 @@ struct Flow {
                   .value()) {
     const std::vector<double> radii(count, 0.5);
     Random random(1);
-    for (const Vec3& centre : place_spheres(radii, *world.definition().box, {.periodic = everywhere}).value()) {
+    for (const Vec3& centre :
+         place_spheres(radii, *world.definition().box, {.periodic = everywhere}).value()) {
       const State start{centre, random.point_in_ball() + Vec3{rate * centre.y, 0, 0}};
       spheres.add(0.0, start).value();
       ids.push_back(world.add({.radius = 0.5, .position = centre, .velocity = start.velocity}).value());

@@ -101,8 +101,8 @@ bool Bodies::is_valid(std::uint32_t number, double now) const {
       !check_radius(definition, no_body, definition_, "restore") ||
       !kinesphere::is_valid(body.bound, *place, now, unbounded) ||
       (space_.repeats() && !images[number].is_valid(space_)) ||
-      (space_.slides() && !(std::abs(rows[number]) <= PeriodicImage::most_images &&
-                            std::floor(rows[number]) == rows[number])))
+      (space_.slides() &&
+       !(std::abs(rows[number]) <= PeriodicImage::most_images && std::floor(rows[number]) == rows[number])))
     return false;
   if (!limits_are_valid(body, definition) || !carried_shape_is_valid(body, definition) ||
       !rigid_body_is_valid(number, now) || !radius_is_valid(number, now))

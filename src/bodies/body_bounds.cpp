@@ -83,8 +83,7 @@ BodyMotion motion_at(const Bodies& bodies, double now, std::uint32_t number, con
   Vec3 velocity = body.bound.velocity_at(now);
   if (bodies.space().slides()) [[unlikely]]
     velocity = bodies.space().velocity_in_row(velocity, body.bound.centre_at(now), place);
-  return {velocity,
-          turning ? turning->after_report(now - body.bound.time).angular_velocity : Vec3{},
+  return {velocity, turning ? turning->after_report(now - body.bound.time).angular_velocity : Vec3{},
           bodies.radii.any() ? changing_size(bodies, now, number).rate : 0.0, body.contact_events};
 }
 

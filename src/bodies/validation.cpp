@@ -212,10 +212,10 @@ Result<void> check_world(const WorldDefinition& definition) {
                   "must be 0 unless x and y are periodic", definition.shear_rate);
     if (!check.error()) {
       const double speed = definition.shear_rate * (definition.box->upper.y - definition.box->lower.y);
-      check.require(std::abs(speed) <= limits::largest_speed && std::abs(speed) >= 1.0 / limits::largest_speed,
-                    ErrorCode::out_of_range, {"shear_rate"},
-                    "must give speeds from 1e-100 to 1e100 across the box, but gives", speed,
-                    definition.shear_rate);
+      check.require(
+          std::abs(speed) <= limits::largest_speed && std::abs(speed) >= 1.0 / limits::largest_speed,
+          ErrorCode::out_of_range, {"shear_rate"},
+          "must give speeds from 1e-100 to 1e100 across the box, but gives", speed, definition.shear_rate);
     }
     if (!check.error()) {
       const double latest = time_of_coarse_slides(definition);

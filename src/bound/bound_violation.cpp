@@ -21,7 +21,8 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
   // At the top of a throw the expected velocity is the difference of two larger ones.
   const double expected_terms =
       new_velocity ? norm(*new_velocity) : norm(before.velocity) + norm(before.planned_acceleration) * s;
-  const double velocity_slack = 0x1p-30 * (norm(after.velocity) + expected_terms + change_limit + speed_of_terms);
+  const double velocity_slack =
+      0x1p-30 * (norm(after.velocity) + expected_terms + change_limit + speed_of_terms);
   bool left = deviation > deviation_limit + position_slack;
   bool jumped = change > change_limit + velocity_slack;
   if (!left && !jumped) return std::nullopt;

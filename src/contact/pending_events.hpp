@@ -120,8 +120,8 @@ class PendingEvents {
   /// Takes note of the response to the last delivered begin: if the two still approach with more than half of
   /// their speed, they are let through until that changes; otherwise their next approach is an event. pop()
   /// does this before it delivers another event. Call it before velocities change for another reason, and
-  /// before bodies are recertified. `motion(number, place)` returns how a body moves now, in its image at this
-  /// place.
+  /// before bodies are recertified. `motion(number, place)` returns how a body moves now, in its image at
+  /// this place.
   template <class MotionNow>
   void note_response(ContactGraph& graph, MotionNow motion) {
     if (!delivered_) return;

@@ -21,7 +21,8 @@ inline void prefetch_line(const void* address) {
 }
 
 /// Periods of the axes that repeat, and their inverses; 0 on the others. Where images slide, the next row of
-/// them, up y, is displaced along x by `slide` (length) at present, and moves at `slide_speed` (space/space.hpp).
+/// them, up y, is displaced along x by `slide` (length) at present, and moves at `slide_speed`
+/// (space/space.hpp).
 struct Periods {
   Vec3 length{};
   Vec3 inverse{};

@@ -61,8 +61,8 @@ double Core::clear_of_walls(std::uint32_t number, Host& host) const {
 }
 
 /// Returns a time for which the ball stays, from now on, so near the centre of its safe region on axes that
-/// repeat that its image is certain (widest_region()), as it does in a region that is not wider, and for which
-/// its last search holds in images that slide.
+/// repeat that its image is certain (widest_region()), as it does in a region that is not wider, and for
+/// which its last search holds in images that slide.
 double Core::keeps_image(std::uint32_t number) const {
   const Ball& ball = balls_[number];
   double time = space_.slides() ? std::max(search_ends_[number] - balls_.time(), 0.0) : infinity;

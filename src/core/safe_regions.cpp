@@ -297,8 +297,8 @@ void Core::set_search_end(std::uint32_t number) {
   if (y - across > 0.0 && y + across < height) return;
   const double speed = std::abs(space_.slide_speed());
   const double least = 0x1p-49 * std::abs(balls_.time()) * speed;
-  const double slide = std::min(std::max(double{reach(ball)} * unit_, least),
-                                Space::most_slide * balls_.periods().length.x);
+  const double slide =
+      std::min(std::max(double{reach(ball)} * unit_, least), Space::most_slide * balls_.periods().length.x);
   search_ends_[number] = balls_.time() + std::min(slide / speed, 1e300);
 }
 
@@ -319,7 +319,8 @@ void Core::search_rows(const Ball& ball, float reach, double duration, RegionSea
     cells_.search(at, enlarged, beyond);
     if (beyond.found.empty()) continue;
     const std::size_t count = search.found.size();
-    if (search.room.size() < count + beyond.found.size()) search.room.resize(2 * (count + beyond.found.size()));
+    if (search.room.size() < count + beyond.found.size())
+      search.room.resize(2 * (count + beyond.found.size()));
     std::copy(beyond.found.begin(), beyond.found.end(),
               search.room.begin() + static_cast<std::ptrdiff_t>(count));
     search.found = std::span(search.room).first(count + beyond.found.size());

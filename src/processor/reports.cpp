@@ -26,8 +26,7 @@ inline void move_to_nearest_image(const Space& space, const Bound& bound, double
 
 /// Notes how many rows of images a report has been moved.
 inline void note_rows(Bodies& bodies, std::uint32_t number, const State& report, const State& moved) {
-  if (bodies.space().slides())
-    bodies.rows[number] = bodies.space().rows_of(moved.position - report.position);
+  if (bodies.space().slides()) bodies.rows[number] = bodies.space().rows_of(moved.position - report.position);
 }
 
 /// Returns the size (length / time) of what a velocity is computed from where images slide.
@@ -238,7 +237,8 @@ bool Reports::apply_plain(Bodies& bodies, double time, std::size_t k) const {
   move_to_nearest_image(bodies.space(), body.bound, time, state);
   State expected = state;
   if (const Change* const change = bodies.changes.find(body)) {
-    if (change->velocity != states_[k].velocity || change->limits != bodies.bound_limits_of(number)) return false;
+    if (change->velocity != states_[k].velocity || change->limits != bodies.bound_limits_of(number))
+      return false;
     expected.velocity = body.bound.velocity_at(time);
   }
   if (!certainly_keeps(body.bound, time, expected, body.radius)) return false;
@@ -278,9 +278,8 @@ void Reports::apply(Bodies& bodies, double time, std::size_t k, std::vector<Viol
   if (new_velocity || before.radius != after.radius ||
       !certainly_keeps(before, time, {after.position, after.velocity}, radius))
     violation = sum_of(
-        violation,
-        bound_violation(before, after, radius, new_velocity, bodies.definition().contact_tolerance,
-                        speed_of_terms(bodies.space(), states_[k].velocity)));
+        violation, bound_violation(before, after, radius, new_velocity, bodies.definition().contact_tolerance,
+                                   speed_of_terms(bodies.space(), states_[k].velocity)));
   if (violation && adopts) adopt(bodies, body, before, after, radius);
   if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, after);
   if (body.is_sleeping()) body.stand_still();

@@ -227,9 +227,10 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
     const Vec3 half = Vec3{std::abs(way.half_way.x), std::abs(way.half_way.y), std::abs(way.half_way.z)} +
                       Vec3{way.radius, way.radius, way.radius};
     // Two that meet beyond a border of the primary box do so in two of the images that reach into it.
-    space.for_each_image({way.middle - half, way.middle + half}, 0.0, now_, [&](const Box&, const Vec3& shift) {
-      ways.push_back({number, way.middle + shift, way.half_way, way.radius});
-    });
+    space.for_each_image({way.middle - half, way.middle + half}, 0.0, now_,
+                         [&](const Box&, const Vec3& shift) {
+                           ways.push_back({number, way.middle + shift, way.half_way, way.radius});
+                         });
   }
   StretchGrid grid;
   grid.fill(ways);

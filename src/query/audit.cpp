@@ -192,8 +192,8 @@ class World::Engine::Audit {
     const Bound one = threshold.within ? first.bound : shrinking_bound(a, first.bound);
     const Bound other = threshold.within ? second.bound : shrinking_bound(b, second.bound);
     const PlainGap gap({one, first.is_static, first.shape, first.carried_radius},
-                       {other, second.is_static, second.shape, second.carried_radius}, period, world.shear_rate,
-                       world.start_time);
+                       {other, second.is_static, second.shape, second.carried_radius}, period,
+                       world.shear_rate, world.start_time);
     const double end = engine_.claimed_until(a, b);
     if (!threshold.within && !boxes_overlap(a, b)) return;
     if (const auto change = certain_change(a, b, threshold, gap, end))
@@ -230,7 +230,8 @@ class World::Engine::Audit {
   }
 
   bool boxes_overlap(std::uint32_t a, std::uint32_t b) {
-    const Vec3 shift = engine_.bodies().space().repeats() ? shift_to_meet(engine_.bodies(), a, b, now_) : Vec3{};
+    const Vec3 shift =
+        engine_.bodies().space().repeats() ? shift_to_meet(engine_.bodies(), a, b, now_) : Vec3{};
     const Box& one = box(a);
     const Box& other = box(b);
     for (int axis = 0; axis < 3; ++axis)

@@ -53,7 +53,8 @@ class World::Run {
 
   /// Executes the run to its end, or to the first error.
   Result<void> go() {
-    if (auto valid = check_time(until_, world_.time(), world_.definition()); !valid) return renamed(valid.error());
+    if (auto valid = check_time(until_, world_.time(), world_.definition()); !valid)
+      return renamed(valid.error());
     if (!lease_) {
       return Error{ErrorCode::workers_busy, "workers", no_body,
                    "run: workers must not be at work in another run, but are"};

@@ -96,7 +96,8 @@ TEST(Space, ASearchFindsEachBoxOnceInWhicheverImage) {
     double largest_extent = 0.0;
     for (std::uint32_t k = 0; k < 200; ++k) {
       boxes.push_back(box_of(k % 10 == 0 ? 1.0 : 0.1));
-      const Vec3 shift = space.shift_of(space.wrapped(0.5 * (boxes[k].lower + boxes[k].upper), 0.0).images, 0.0);
+      const Vec3 shift =
+          space.shift_of(space.wrapped(0.5 * (boxes[k].lower + boxes[k].upper), 0.0).images, 0.0);
       const Box image{boxes[k].lower - shift, boxes[k].upper - shift};
       for (int axis = 0; axis < 3; ++axis) {
         if (!periodic[axis]) continue;

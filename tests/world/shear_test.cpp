@@ -20,8 +20,8 @@ namespace {
 using Long = long double;
 constexpr double eps = 1e-7;
 
-/// In which image the caller reports its bodies: where they have come on their ways, in the primary box, or in
-/// any, another one each time.
+/// In which image the caller reports its bodies: where they have come on their ways, in the primary box, or
+/// in any, another one each time.
 enum class Frame { way, primary, any };
 
 struct Kind {
@@ -128,8 +128,7 @@ struct Gas {
     Long least = std::numeric_limits<Long>::infinity();
     for (const Long row : {nearest - 1, nearest, nearest + 1}) {
       const Long x = std::remainder(way[0] - row * slide(time), period(0)), y = way[1] - row * period(1);
-      const Long z =
-          kind.dimensions == 3 && kind.periodic.z ? std::remainder(way[2], period(2)) : way[2];
+      const Long z = kind.dimensions == 3 && kind.periodic.z ? std::remainder(way[2], period(2)) : way[2];
       least = std::min(least, std::sqrt(x * x + y * y + z * z));
     }
     return static_cast<double>(least) - radii[a] - radii[b];
@@ -149,22 +148,23 @@ struct Gas {
     Long first = all;
     for_each_pass(way[1], speed[1], reach, period(1), 0, all, [&](Long row, Long from, Long to) {
       const Long x = way[0] - row * slide(now), u = speed[0] - row * kind.shear_rate * period(1);
-      for_each_pass(x, u, reach, period(0), from, std::min(to, first), [&](Long column, Long later, Long end) {
-        const auto at_depth = [&](Long layer) {
-          const Long q[3] = {x - column * period(0), way[1] - row * period(1), way[2] - layer};
-          const Long qq = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] - reach * reach;
-          const Long qv = q[0] * u + q[1] * speed[1] + q[2] * speed[2];
-          const Long vv = u * u + speed[1] * speed[1] + speed[2] * speed[2];
-          const Long root = qv * qv - vv * qq;
-          if (root < 0 || qv >= 0) return;
-          const Long time = (-qv - std::sqrt(root)) / vv;
-          // Two that touch now have met before.
-          if (time > -1e-9L && time < first) first = std::max(time, Long(0));
-        };
-        if (kind.dimensions == 2 || !kind.periodic.z) return at_depth(0);
-        for_each_pass(way[2], speed[2], reach, period(2), later, end,
-                      [&](Long layer, Long, Long) { at_depth(layer * period(2)); });
-      });
+      for_each_pass(x, u, reach, period(0), from, std::min(to, first),
+                    [&](Long column, Long later, Long end) {
+                      const auto at_depth = [&](Long layer) {
+                        const Long q[3] = {x - column * period(0), way[1] - row * period(1), way[2] - layer};
+                        const Long qq = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] - reach * reach;
+                        const Long qv = q[0] * u + q[1] * speed[1] + q[2] * speed[2];
+                        const Long vv = u * u + speed[1] * speed[1] + speed[2] * speed[2];
+                        const Long root = qv * qv - vv * qq;
+                        if (root < 0 || qv >= 0) return;
+                        const Long time = (-qv - std::sqrt(root)) / vv;
+                        // Two that touch now have met before.
+                        if (time > -1e-9L && time < first) first = std::max(time, Long(0));
+                      };
+                      if (kind.dimensions == 2 || !kind.periodic.z) return at_depth(0);
+                      for_each_pass(way[2], speed[2], reach, period(2), later, end,
+                                    [&](Long layer, Long, Long) { at_depth(layer * period(2)); });
+                    });
     });
     return first < all ? static_cast<double>(Long(now) + first) : until;
   }
@@ -252,7 +252,8 @@ TEST_P(Shear, FindsEachContactInImagesThatSlide) {
     const auto look = [&](std::size_t ball, double now) {
       for (std::size_t other = 0; other < count; ++other)
         if (other != ball)
-          meeting[ball * count + other] = meeting[other * count + ball] = gas.meeting(ball, other, now, until);
+          meeting[ball * count + other] = meeting[other * count + ball] =
+              gas.meeting(ball, other, now, until);
     };
     for (std::size_t ball = 0; ball < count; ++ball) look(ball, gas.kind.start_time);
     std::size_t contacts = 0, across = 0;
@@ -475,7 +476,8 @@ TEST(ShearedCrowd, TouchesAndSensesAsTheTruthDoes) {
         EXPECT_TRUE(std::abs(gap) < 6.0 * eps || touches == (gap < 0.0)) << body << other << gap;
         const bool may_sense = body.index % 2 == 1 || other.index % 2 == 1;
         const double more = gap - Crowd::distance;
-        EXPECT_TRUE(std::abs(more) < 6.0 * eps || senses == (may_sense && more < 0.0)) << body << other << gap;
+        EXPECT_TRUE(std::abs(more) < 6.0 * eps || senses == (may_sense && more < 0.0))
+            << body << other << gap;
       }
     }
   }
@@ -483,9 +485,11 @@ TEST(ShearedCrowd, TouchesAndSensesAsTheTruthDoes) {
   EXPECT_GT(crossings, 200u);
 }
 
-/// Discs in square wells: those that are in each other's are told to be, also after many have been turned back.
+/// Discs in square wells: those that are in each other's are told to be, also after many have been turned
+/// back.
 TEST(ShearedCrowd, KeepsPotentialsOfSteps) {
-  const Kind kind{"wells", {{0, 0, 0}, {12, 10, 0}}, 2, 50, 0.4, 0.4, 1.0, 0.0, Frame::way, {true, true, false}};
+  const Kind kind{"wells",    {{0, 0, 0}, {12, 10, 0}}, 2, 50, 0.4, 0.4, 1.0, 0.0,
+                  Frame::way, {true, true, false}};
   Gas gas(kind, 8);
   const double distance = 0.3;
   const StepPotential well =
@@ -497,14 +501,15 @@ TEST(ShearedCrowd, KeepsPotentialsOfSteps) {
   std::size_t turned = 0, contacts = 0;
   for (int step = 1; step <= 20; ++step) {
     gas.world
-        .run(0.5 * step, source,
-             [&](const Event& event) {
-               const Response response = well.respond(event);
-               (event.kind == EventKind::contact_begin ? contacts : turned) +=
-                   event.kind == EventKind::contact_begin || response.turned_back ? 1 : 0;
-               return response;
-             },
-             [](const Event&) {})
+        .run(
+            0.5 * step, source,
+            [&](const Event& event) {
+              const Response response = well.respond(event);
+              (event.kind == EventKind::contact_begin ? contacts : turned) +=
+                  event.kind == EventKind::contact_begin || response.turned_back ? 1 : 0;
+              return response;
+            },
+            [](const Event&) {})
         .value();
     const double now = gas.world.time();
     EXPECT_TRUE(is_clean(gas.world));
@@ -526,12 +531,12 @@ TEST(ShearedCrowd, KeepsPotentialsOfSteps) {
 
 /// States that the world returns lie in the primary box, and have the velocities of their images.
 TEST(ShearedCrowd, ShowsBodiesInThePrimaryBox) {
-  WorldDefinition definition{.box = Box{{0, 0, 0}, {10, 10, 10}},
-                             .periodic = {true, true, true},
-                             .shear_rate = 0.5};
+  WorldDefinition definition{
+      .box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = {true, true, true}, .shear_rate = 0.5};
   World world = World::create(definition).value();
   const State start{{1, 9, 5}, {1, 2, 0}};
-  const BodyId body = world.add({.radius = 1.0, .position = start.position, .velocity = start.velocity}).value();
+  const BodyId body =
+      world.add({.radius = 1.0, .position = start.position, .velocity = start.velocity}).value();
   const Probe probe = [&](std::span<const BodyId>, double time, std::span<State> states) {
     states[0] = {start.position + time * start.velocity, start.velocity};
   };
@@ -564,9 +569,10 @@ TEST(ShearedCrowd, RefusesWhatItCannotDo) {
   const std::string call = "World::create";
   for (const Axes& axes : {Axes{true, false, true}, Axes{false, true, true}, Axes{}})
     expect_error(create([&](auto& world) { world.periodic = axes; }), out_of_range, "shear_rate", call);
-  expect_error(create([](auto& world) { world.box.reset(), world.periodic = {}; }), out_of_range, "shear_rate",
-               call);
-  for (const double rate : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+  expect_error(create([](auto& world) { world.box.reset(), world.periodic = {}; }), out_of_range,
+               "shear_rate", call);
+  for (const double rate :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     expect_error(create([&](auto& world) { world.shear_rate = rate; }), ErrorCode::not_finite, "shear_rate",
                  call);
   for (const double rate : {1e100, -1e-200})
