@@ -110,7 +110,8 @@ class Core {
 
   /// Serializes what rebuild() cannot find again.
   static void serialize(auto& self, auto& archive) {
-    archive(self.balls_, self.changes_, self.search_ends_, self.first_radius_, self.measured_);
+    archive(self.balls_, self.changes_, self.search_ends_, self.largest_reach_, self.reach_uses_,
+            self.first_radius_, self.measured_);
     if constexpr (std::is_const_v<std::remove_reference_t<decltype(self)>>) {
       archive(self.saved());
     } else {
@@ -233,7 +234,7 @@ class Core {
   void forget_neighbours(std::uint32_t number);
   void set_search_end(std::uint32_t number);
   void search_rows(const Ball& ball, float reach, double duration, RegionSearch& search) const;
-  double reach_across(const Ball& ball) const;
+  void measure_reaches();
   void move_to_row(std::uint32_t number, Vec3& place);
   std::vector<std::uint32_t> all_with_regions() const;
   double next_radius(std::uint32_t number);
@@ -291,6 +292,10 @@ class Core {
   /// By number, empty unless images slide: until when the last search of the ball holds in the images across
   /// y; infinity if it does not reach there.
   std::vector<double> search_ends_;
+  /// Where images slide: no reach of a safe region is larger (region units). So often it has been used since
+  /// it was the least such number.
+  float largest_reach_ = 0.0F;
+  std::size_t reach_uses_ = 0;
   Ghosts* ghosts_ = nullptr;    ///< nullptr where each ball is the world's own
   double first_radius_ = 0.0;   ///< of the first safe region of a ball that arrives alone (length)
   Saved saved_;                 ///< from a snapshot, until rebuild()

@@ -87,6 +87,7 @@ bool Core::rebuild(double time) {
   if (search_ends_.size() != (space_.slides() ? balls_.size() : 0)) return false;
   for (const double end : search_ends_)
     if (std::isnan(end)) return false;
+  if (!(largest_reach_ >= 0.0F && largest_reach_ < 0x1p62F)) return false;
   if (!balls_.has_valid_drifts() || saved_.reaches.size() != balls_.size() ||
       changes_.size() != balls_.size() || saved_.lists.size() != balls_.size())
     return false;

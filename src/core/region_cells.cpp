@@ -152,13 +152,6 @@ bool RegionCells::are_near(const Ball& a, float reach_of_a, const Ball& b, float
   return regions_within_reach(&block, &balls, &place, 1, query, float_periods_, found) == 1;
 }
 
-double RegionCells::largest_reach() const {
-  float largest = 0.0F;
-  for (const Level& level : levels_)
-    if (level.regions > 0) largest = std::max(largest, level.largest_reach);
-  return double{largest};
-}
-
 std::vector<std::pair<Box, std::size_t>> RegionCells::filled() const {
   std::map<std::pair<std::size_t, std::array<std::int64_t, 3>>, std::size_t> counts;
   for (std::size_t place = 0; place < blocks_.size(); ++place)

@@ -83,8 +83,6 @@ class RegionCells {
   void rebuild(Balls& balls);
   /// Returns the median reach of the regions when levels were chosen (region units).
   double median_reach() const { return double{median_}; }
-  /// Returns a reach that no region exceeds (region units).
-  double largest_reach() const;
   /// Returns the cells that are not empty (region units), each with the number of regions in it.
   std::vector<std::pair<Box, std::size_t>> filled() const;
   std::size_t bytes() const {

@@ -158,6 +158,7 @@ void Core::place_region(std::uint32_t number, double radius) {
   for (int axis = 0; axis < 3; ++axis)
     ball.centre[axis] = static_cast<float>((centre[axis] - origin_[axis]) / unit_);
   if (ghosts_ != nullptr) ghosts_->note_region(number, region_centre(ball), double{reach(ball)} * unit_);
+  if (space_.slides()) largest_reach_ = std::max(largest_reach_, reach(ball));
   ball.walls &= Ball::at_walls;
   if (!ball.is(Ball::meets_walls)) return;
   const double extent = double{reach(ball)} * unit_;
@@ -281,9 +282,12 @@ std::vector<std::uint32_t> Core::all_with_regions() const {
   return all;
 }
 
-/// Returns how far (region units) the search of a ball reaches, on y, for others in the images across y.
-double Core::reach_across(const Ball& ball) const {
-  return double{reach(ball)} + cells_.largest_reach() + parting_ / unit_;
+/// Finds the largest reach of a safe region.
+void Core::measure_reaches() {
+  largest_reach_ = 0.0F;
+  reach_uses_ = 0;
+  for (const Ball& ball : balls_.all())
+    if (ball.has_region()) largest_reach_ = std::max(largest_reach_, reach(ball));
 }
 
 /// Chooses how long the search of a ball that has got a safe region holds in images that slide. They slide by
@@ -291,7 +295,10 @@ double Core::reach_across(const Ball& ball) const {
 /// at a packing of 0.1 takes least time so.
 void Core::set_search_end(std::uint32_t number) {
   const Ball& ball = balls_[number];
-  const double across = reach_across(ball), y = double{ball.centre[1]};
+  if (++reach_uses_ > 4 * present_) measure_reaches();
+  // So far, on y, it can reach others in the images across y.
+  const double across = double{reach(ball)} + double{largest_reach_} + parting_ / unit_;
+  const double y = double{ball.centre[1]};
   const double height = balls_.periods().length.y / unit_;
   search_ends_[number] = infinity;
   if (y - across > 0.0 && y + across < height) return;

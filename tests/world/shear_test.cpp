@@ -326,9 +326,16 @@ TEST_P(Shear, RunsAlikeOnThreadsAfterSnapshotsAndInReplays) {
     World restored = World::restore(world.save().value()).value();
     EXPECT_EQ(restored.save().value(), world.save().value());
     EXPECT_TRUE(is_clean(restored));
+    const auto moved_too = moved->clone();
+    SingleMotionSource other(*moved_too);
+    world
+        .run(
+            until, other, respond, [](const Event&) {}, &workers)
+        .value();
     restored.run(until, source, respond, sink, &workers).value();
     EXPECT_TRUE(is_clean(restored));
     EXPECT_EQ(found.value(), expected.value());
+    EXPECT_EQ(restored.save().value(), world.save().value());
   }
 }
 
