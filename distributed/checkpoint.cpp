@@ -12,7 +12,7 @@ namespace kinesphere {
 namespace {
 
 constexpr Envelope envelope{{'K', 'i', 'n', 'e', 'd', 'w', '\r', '\n'},
-                            10,
+                            11,
                             "part of a distributed world",
                             "restore",
                             "parts",
@@ -36,8 +36,8 @@ Result<Checkpoint> Checkpoint::read(std::span<const std::byte> bytes) {
   reader(checkpoint);
   if (reader.failed() || reader.remaining() != 0)
     return refusal("must be parts of a world, but one has the wrong format");
-  if (!check_world(checkpoint.definition) || checkpoint.part >= checkpoint.identity.parts ||
-      !std::isfinite(checkpoint.identity.time) ||
+  if (!check_world(checkpoint.definition) || checkpoint.definition.shear_rate != 0.0 ||
+      checkpoint.part >= checkpoint.identity.parts || !std::isfinite(checkpoint.identity.time) ||
       !checkpoint.facts.spot_checks.is_valid(checkpoint.identity.time) ||
       !(checkpoint.facts.first_radius >= 0.0))
     return refusal("must be consistent, but one contradicts itself");

@@ -23,6 +23,7 @@ Result<DistributedWorld> DistributedWorld::create(const WorldDefinition& definit
   if (auto usable = Communicator::check(communicator, "create"); !usable) return usable.error();
   const auto valid = [&]() -> Result<void> {
     if (auto checked = check_world(definition); !checked) return checked;
+    if (auto checked = check_no_shear(definition, "create"); !checked) return checked;
     if (!definition.allow_overlap)
       return Error{ErrorCode::unsupported, "allow_overlap", no_body,
                    "create: allow_overlap must be true in a distributed world, but is false"};

@@ -28,7 +28,7 @@ bool comes_before(const BodyRecord& a, const BodyRecord& b) { return a.name < b.
 
 /// Returns where a body is, in the primary box of periodic space.
 Vec3 Distribution::place_of(const BodyRecord& body, double time) const {
-  return space_.wrapped(body.body.bound.centre_at(time)).position;
+  return space_.wrapped(body.body.bound.centre_at(time), time).position;
 }
 
 void Distribution::divide(std::span<BodyRecord> own, double time) {
@@ -106,7 +106,7 @@ Box Distribution::way_of(const BodyRecord& body, const Slab& slab) const {
     reach = 4.0 * (bound.radius + body.first_radius);
   }
   // The two may be on both sides of a face of the primary box.
-  if (space_.repeats()) now += space_.shift_to_nearest(now, centre);
+  if (space_.repeats()) now += space_.shift_to_nearest(now, centre, slab.begin);
   const Vec3 extent{reach, reach, reach};
   Box way{centre - extent, centre + extent};
   const double duration = std::min(slab.stop - slab.begin, 1e100);

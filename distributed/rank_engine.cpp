@@ -57,7 +57,7 @@ RankFigures DistributedWorld::RankEngine::figures() const {
 
 Result<void> DistributedWorld::RankEngine::check_run(double until, const PoolLease& lease) const {
   if (auto valid = consensus_.check("run"); !valid) return valid;
-  if (auto time_is_valid = check_time(until, time()); !time_is_valid) {
+  if (auto time_is_valid = check_time(until, time(), definition()); !time_is_valid) {
     Error error = time_is_valid.error();
     if (error.message.rfind("advance:", 0) == 0) error.message.replace(0, 8, "run:");
     return error;

@@ -311,6 +311,9 @@ typedef struct ks_world_definition {
   /// explains the report.
   ks_bool adopt_observed_limits;
   int32_t reserved;  ///< 0
+  /// (1 / time): the images of bodies across y slide along x, so that a flow goes on through the borders. x
+  /// and y repeat then, and all bodies are balls.
+  double shear_rate;
 } ks_world_definition;
 KS_API ks_status ks_world_definition_init(ks_world_definition* definition, uint32_t struct_size);
 static inline ks_world_definition ks_default_world_definition(void) {

@@ -43,6 +43,7 @@ constexpr void each_world_definition_field(Visit&& visit, Records&... records) {
   visit("allow_overlap", records.allow_overlap...);
   visit("spread_window_starts", records.spread_window_starts...);
   visit("adopt_observed_limits", records.adopt_observed_limits...);
+  visit("shear_rate", records.shear_rate...);
 }
 
 template <class Visit, class... Records>

@@ -214,6 +214,9 @@ namespace Kinesphere
         Filter wallFilter;
         int adoptObservedLimits;
         int reserved;
+        /// <summary>(1 / time): the images of bodies across y slide along x, so that a flow goes on through the borders. x
+        /// and y repeat then, and all bodies are balls.</summary>
+        public double ShearRate;
         /// <summary>Default true. If false, bodies that certainly overlap are refused.</summary>
         public bool AllowOverlap { get { return allowOverlap != 0; } set { allowOverlap = value ? 1 : 0; } }
         /// <summary>Has no effect.</summary>

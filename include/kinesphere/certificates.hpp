@@ -14,7 +14,7 @@
 //
 // On periodic axes all images count, and the distance of two bodies is that of their nearest images. Two
 // bodies that move relative to each other are then certified at most until they may have approached by two
-// boxes.
+// boxes. Where images slide (WorldDefinition::shear_rate) there are no certificates: unsupported.
 #pragma once
 
 #include <utility>

@@ -114,7 +114,8 @@ struct Event {
   /// States of the two bodies at `time`. The state is zero for a wall or no_body; for a static body it is
   /// one point of its shape, with zero velocity. On periodic axes the first body is in the primary image,
   /// and the second one in its nearest image, inside the box or not, so that the vector between them is the
-  /// one that a virial needs. BodyView::image gives the number of boxes that each has travelled.
+  /// one that a virial needs. BodyView::image gives the number of boxes that each has travelled. Where images
+  /// slide, each velocity is that of the image that is shown.
   State first_state{};
   State second_state{};
   /// Midpoint of the gap between the two surfaces; for a wall, the point of the wall nearest to the body.

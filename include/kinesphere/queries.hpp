@@ -149,8 +149,8 @@ class [[nodiscard]] World::Queries {
   /// The result is empty if the ray certainly hits nothing within `length`, and a single body that is
   /// certainly the first is marked Certainty::certainly. `direction` may have any length > 0. With a probe,
   /// all returned bodies are probed. Walls are ignored. Errors: on periodic axes, out_of_range for a length
-  /// of more than 64 boxes or a sphere radius of more than half a box. Cost: at most 64 searches along the
-  /// ray.
+  /// of more than 64 boxes or a sphere radius of more than half a box; unsupported where images slide. Cost:
+  /// at most 64 searches along the ray.
   Result<std::vector<CastHit>> ray_cast(const Vec3& origin, const Vec3& direction, double length,
                                         const QueryOptions& options = {},
                                         std::vector<CastHit> storage = {}) const;

@@ -235,9 +235,10 @@ class World {
   /// Informs the world that this body has the velocity `velocity` from the current time on. The probe must
   /// agree; otherwise a bound_violation reports the difference. The call invalidates every certificate of
   /// the body. If the body has not been probed at the current time (after a contact, its two bodies have
-  /// been), the next advance probes it first. Errors: disabled_body; static_body; not_finite; out_of_range
-  /// (beyond limits.hpp, or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, and a
-  /// search at the next advance.
+  /// been), the next advance probes it first. Where images slide (WorldDefinition::shear_rate), it is the
+  /// velocity that a probe gives now, with a position in whichever image. Errors: disabled_body; static_body;
+  /// not_finite; out_of_range (beyond limits.hpp, or z other than 0 in two dimensions); probe_in_progress.
+  /// Cost: O(1) here, and a search at the next advance.
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
   /// Returns the error that set_velocity() would return now, and changes nothing: for a caller who changes
   /// the body's motion first, as a BodyMap does. Cost: O(1).

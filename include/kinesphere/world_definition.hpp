@@ -35,6 +35,15 @@ struct WorldDefinition {
   /// separation_distance + contact_tolerance may be at most 3/8 of the box; a diameter of a third of the
   /// box satisfies this. Cost: a body is probed at least once while it crosses half of the box.
   Axes periodic{};
+  /// Shear rate (1 / time) of Lees-Edwards boundaries, of either sign: the images of all bodies across y
+  /// slide along x. The image n periods up y is displaced by n shear_rate L_y (t - start_time) along x,
+  /// besides its n L_y, and n shear_rate L_y faster, where L_y is the period of y. So a flow x' = shear_rate
+  /// y goes on through the borders. x and y have to be periodic; z may have any borders. All bodies are
+  /// balls, and none sleeps. A state from the caller may be in any image: its velocity is that of the image
+  /// in which its position lies (docs/fluids.md#shear). Not for a GameWorld or a DistributedWorld. The world
+  /// advances to times of at most 1.4e13 times that in which the next image slides by the box. Cost: a ball
+  /// near a border across y is searched for whenever images have slid by about its size.
+  double shear_rate = 0.0;
   /// The filter of all walls: they meet a body as another body with this filter would. By default they meet
   /// every body, whatever its filter. Bodies that the walls do not meet may be anywhere. For walls that
   /// differ from each other, add static half-spaces (World::add_static) instead of a box.
@@ -74,9 +83,9 @@ struct WorldDefinition {
   /// Two default separation distances (NaN) are equal.
   friend bool operator==(const WorldDefinition& a, const WorldDefinition& b) {
     const auto others = [](const WorldDefinition& world) {
-      return std::tie(world.box, world.periodic, world.wall_filter, world.dimensions, world.contact_tolerance,
-                      world.contacts, world.allow_overlap, world.zeno_interval, world.start_time,
-                      world.spread_window_starts, world.adopt_observed_limits);
+      return std::tie(world.box, world.periodic, world.shear_rate, world.wall_filter, world.dimensions,
+                      world.contact_tolerance, world.contacts, world.allow_overlap, world.zeno_interval,
+                      world.start_time, world.spread_window_starts, world.adopt_observed_limits);
     };
     return others(a) == others(b) &&
            (a.separation_distance == b.separation_distance ||

@@ -52,6 +52,7 @@ class WorldDefinition(TypedDict):
     allow_overlap: bool
     spread_window_starts: bool
     adopt_observed_limits: bool
+    shear_rate: float
     # end of what is generated
 
 class BodyDefinitions(TypedDict):
@@ -678,6 +679,7 @@ class World:
         allow_overlap: bool = True,
         spread_window_starts: bool = False,
         adopt_observed_limits: bool = True,
+        shear_rate: float = 0.0,
     ) -> None: ...
     # end of what is generated
     @property

@@ -16,7 +16,7 @@ namespace kinesphere::python {
 template <class Class, class Create>
 void bind_world_arguments(Class& bound, const Create& create) {
   bound.def(
-      py::init([create](const py::object& box, const py::object& periodic, const py::object& wall_filter, int dimensions, double contact_tolerance, const py::object& separation_distance, double zeno_interval, double start_time, const std::string& contacts, bool allow_overlap, bool spread_window_starts, bool adopt_observed_limits) {
+      py::init([create](const py::object& box, const py::object& periodic, const py::object& wall_filter, int dimensions, double contact_tolerance, const py::object& separation_distance, double zeno_interval, double start_time, const std::string& contacts, bool allow_overlap, bool spread_window_starts, bool adopt_observed_limits, double shear_rate) {
         WorldDefinition definition;
         definition.dimensions = dimensions;
         definition.contact_tolerance = contact_tolerance;
@@ -25,6 +25,7 @@ void bind_world_arguments(Class& bound, const Create& create) {
         definition.allow_overlap = allow_overlap;
         definition.spread_window_starts = spread_window_starts;
         definition.adopt_observed_limits = adopt_observed_limits;
+        definition.shear_rate = shear_rate;
         read_argument(box, {"World", "box"}, definition, definition.box);
         read_argument(periodic, {"World", "periodic"}, definition, definition.periodic);
         read_argument(wall_filter, {"World", "wall_filter"}, definition, definition.wall_filter);
@@ -45,6 +46,7 @@ void bind_world_arguments(Class& bound, const Create& create) {
       py::arg("allow_overlap") = true,
       py::arg("spread_window_starts") = false,
       py::arg("adopt_observed_limits") = true,
+      py::arg("shear_rate") = 0.0,
       R"(box: walls, a Box or a pair of corners; without one the world is unbounded.
 periodic: True, or axes such as "xy", on which the box repeats instead of having walls; in two dimensions True
 means "xy".
@@ -63,6 +65,8 @@ allow_overlap: Default true. If False, bodies that certainly overlap are refused
 spread_window_starts: Has no effect.
 adopt_observed_limits: Default true: a report that breaks the promise of its body raises the body's
 acceleration limit to what explains the report.
+shear_rate: (1 / time): the images of bodies across y slide along x, so that a flow goes on through the
+borders. x and y repeat then, and all bodies are balls.
 Raises ValueError (InvalidValue) that names the argument.)");
 }
 
@@ -80,6 +84,7 @@ inline py::dict arguments_of(const WorldDefinition& definition) {
   arguments["allow_overlap"] = argument_of(definition.allow_overlap);
   arguments["spread_window_starts"] = argument_of(definition.spread_window_starts);
   arguments["adopt_observed_limits"] = argument_of(definition.adopt_observed_limits);
+  arguments["shear_rate"] = argument_of(definition.shear_rate);
   return arguments;
 }
 

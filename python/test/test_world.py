@@ -461,6 +461,20 @@ def test_space_that_repeats() -> None:
     assert ks.World(box=((0, 0, 0), (10, 10, 10)), periodic="xy").definition["periodic"] == "xy"
 
 
+def test_images_of_a_box_that_shears_slide() -> None:
+    motion = ks.Ballistic([(5, 9), (1, 1)], [(0, 1), (0, 0)])
+    world = ks.World(dimensions=2, box=((0, 0), (10, 10)), periodic="xy", shear_rate=0.2)
+    world.add_motion(motion, radii=0.5)
+    # The image of the first ball below the box goes to the left at speed 2.
+    events = world.run(5.0, motion, ks.Bouncing()).of_kind(EventKind.contact_begin)
+    assert [event.time for event in events] == pytest.approx([2 - 5**-0.5])
+    assert events[0].first_velocity.tolist() == [-2, 1, 0]
+    assert motion.states(3.0)[1] == pytest.approx(np.array([[2, 0, 0], [-2, 1, 0]]), abs=1e-6)
+    assert world.definition["shear_rate"] == 0.2
+    with pytest.raises(ValueError, match="shear_rate"):
+        ks.World(shear_rate=1.0)
+
+
 def test_a_definition_makes_the_same_world_again() -> None:
     settings = dict(box=ks.Box((0, 0, 0), (1, 2, 3)), contact_tolerance=1e-4, zeno_interval=0.1, start_time=5.0,
                     allow_overlap=False, contacts="impacts", separation_distance=0.01, dimensions=3,

@@ -314,6 +314,9 @@ pub struct WorldDefinition {
     /// Default true: a report that breaks the promise of its body raises the body's acceleration limit to what
     /// explains the report.
     pub adopt_observed_limits: bool,
+    /// (1 / time): the images of bodies across y slide along x, so that a flow goes on through the borders. x and y
+    /// repeat then, and all bodies are balls.
+    pub shear_rate: f64,
 }
 
 impl WorldDefinition {
@@ -331,6 +334,7 @@ impl WorldDefinition {
             spread_window_starts: raw.spread_window_starts != 0,
             wall_filter: (raw.has_wall_filter != 0).then(|| Filter::of(&raw.wall_filter)),
             adopt_observed_limits: raw.adopt_observed_limits != 0,
+            shear_rate: raw.shear_rate,
         }
     }
     /// The record of C.
@@ -352,6 +356,7 @@ impl WorldDefinition {
             wall_filter: self.wall_filter.map(|one| one.raw()).unwrap_or_default(),
             adopt_observed_limits: self.adopt_observed_limits as i32,
             reserved: Default::default(),
+            shear_rate: self.shear_rate,
         }
     }
 }

@@ -170,6 +170,7 @@ pub struct ks_world_definition {
     pub wall_filter: ks_filter,
     pub adopt_observed_limits: i32,
     pub reserved: i32,
+    pub shear_rate: f64,
 }
 
 impl ks_world_definition {
@@ -795,7 +796,7 @@ const _: () = {
     assert!(std::mem::size_of::<ks_mesh>() == 8);
     assert!(std::mem::size_of::<ks_world>() == 8);
     assert!(std::mem::size_of::<ks_filter>() == 24);
-    assert!(std::mem::size_of::<ks_world_definition>() == 144);
+    assert!(std::mem::size_of::<ks_world_definition>() == 152);
     assert!(std::mem::size_of::<ks_body_definition>() == 160);
     assert!(std::mem::size_of::<ks_static_definition>() == 136);
     assert!(std::mem::size_of::<Quaternion>() == 32);

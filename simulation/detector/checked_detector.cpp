@@ -49,7 +49,7 @@ class CheckedDetector final : public Detector {
   }
 
   Result<std::optional<Event>> advance(double until) override {
-    if (auto valid = check_time(until, time()); !valid) return valid.error();
+    if (auto valid = check_time(until, time(), {}); !valid) return valid.error();
     return detector_->advance(until);
   }
 

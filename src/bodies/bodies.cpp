@@ -10,6 +10,7 @@ Bodies::Bodies(const WorldDefinition& definition)
 void Bodies::reserve(std::size_t bodies) {
   table_.reserve(bodies);
   if (space_.repeats()) images.reserve(bodies);
+  if (space_.slides()) rows.reserve(bodies);
 }
 
 std::uint32_t Bodies::add(const BodyDefinition& definition, double now) {
@@ -22,6 +23,7 @@ std::uint32_t Bodies::add_named(const BodyDefinition& definition, double now, st
 
 std::uint32_t Bodies::describe(std::uint32_t number, const BodyDefinition& definition, double now) {
   if (space_.repeats()) images.resize(numbers());
+  if (space_.slides()) rows.resize(numbers());
   Body& body = table_[number];
   body.radius = definition.radius;
   body.position_error = definition.position_error;
@@ -55,10 +57,11 @@ void Bodies::remove(std::uint32_t number) {
 BodyDefinition Bodies::definition_of(std::uint32_t number) const {
   const Body& body = table_[number];
   const Change* const change = changes.find(body);
+  const bool turns = change && change->velocity;
   BodyDefinition definition{
       .radius = body.radius,
       .position = body.bound.position,
-      .velocity = change ? change->velocity.value_or(body.bound.velocity) : body.bound.velocity,
+      .velocity = turns ? velocity_in_image(number, *change->velocity) : body.bound.velocity,
       .filter = filters.of(number),
       .solid = body.solid,
       .contacts = body.contact_events,
@@ -116,7 +119,27 @@ void Bodies::wrap_to_primary(std::uint32_t number, double now) {
     images[number] = {.middle = body.bound.position};
     return;
   }
-  body.bound.position -= images[number].wrap(space_, body.bound.centre_at(now));
+  const Vec3 shift = -images[number].wrap(space_, body.bound.centre_at(now), now);
+  body.bound.position += shift;
+  if (space_.slides()) slide_to_image(number, shift, now);
+}
+
+/// Completes a shift of a body to another image, where images slide: its position has been moved.
+void Bodies::slide_to_image(std::uint32_t number, const Vec3& shift, double now) {
+  Bound& bound = table_[number].bound;
+  const Vec3 velocity = space_.velocity_of(shift);
+  bound.position -= velocity * (now - bound.time);
+  bound.velocity += velocity;
+  rows[number] += space_.rows_of(shift);
+}
+
+void Bodies::turn_in_image(std::uint32_t number, const Vec3& velocity, double now) {
+  Bound& bound = table_[number].bound;
+  if (bound.time == now) bound.velocity = velocity_in_image(number, velocity);
+}
+
+Vec3 Bodies::sliding_velocity(std::uint32_t number, const Vec3& velocity) const {
+  return velocity + Vec3{rows[number] * space_.slide_speed(), 0.0, 0.0};
 }
 
 }  // namespace kinesphere

@@ -158,20 +158,34 @@ class Bodies {
   /// Resets the image count of the body; call when the caller sets its position.
   void count_images_anew(std::uint32_t number) {
     if (space_.repeats()) images[number].image = {};
+    if (space_.slides()) rows[number] = 0.0;
   }
   /// Moves the body to the image in which it lies in the primary box. Requires periodic space.
   void wrap_to_primary(std::uint32_t number, double now);
+  /// Moves the body to the image in which it is nearest to the centre of its safe region, in the primary box.
+  void move_to_image_of(std::uint32_t number, const Vec3& centre, double now) {
+    Bound& bound = table_[number].bound;
+    const Vec3 shift = images[number].follow(space_, bound.centre_at(now), centre, now);
+    bound.position += shift;
+    if (space_.slides()) slide_to_image(number, shift, now);
+  }
+  /// A body with a report of now has a velocity that the caller gives with it. Requires images that slide.
+  [[gnu::cold]] void turn_in_image(std::uint32_t number, const Vec3& velocity, double now);
+  /// Returns a velocity of the body that the caller gives with a position of now, in the image of its bound.
+  Vec3 velocity_in_image(std::uint32_t number, const Vec3& velocity) const {
+    return space_.slides() ? sliding_velocity(number, velocity) : velocity;
+  }
 
   /// Serializes all fields except the definition and what follows from it, the tag, and the pair filter.
   /// Bodies that are read get ids with tag 0.
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
-    auto& [changes, sleep_records, filters, masses, radii, images, shapes, rigid, sensors, common_reach,
+    auto& [changes, sleep_records, filters, masses, radii, images, rows, shapes, rigid, sensors, common_reach,
            definition, space, enclosure, table] = self;
     auto& [bodies, live_count, free, tag, names] = table;
     auto& [by_number, pair_filter, any] = filters;
-    archive(bodies, live_count, changes, sleep_records, by_number, masses, radii, images, free, shapes, rigid,
-            sensors, common_reach, any);
+    archive(bodies, live_count, changes, sleep_records, by_number, masses, radii, images, rows, free, shapes,
+            rigid, sensors, common_reach, any);
     if constexpr (!std::is_const_v<Self>) tag = 0;
   }
   /// Returns the name of the part that no sequence of calls could have produced, or nullptr if there is none.
@@ -185,6 +199,9 @@ class Bodies {
   SparseColumn<double> masses{BodyDefinition{}.mass};  ///< for events; infinite for static bodies
   ChangingRadii radii;
   std::vector<PeriodicImage> images;  ///< by body number; empty unless space is periodic
+  /// By body number, empty unless images slide: how many rows up y the image of the bound is from that of the
+  /// last report. A whole number.
+  std::vector<double> rows;
   Shapes shapes;
   RigidBodies rigid;
   SensorTable sensors;
@@ -195,6 +212,8 @@ class Bodies {
  private:
   std::uint32_t describe(std::uint32_t number, const BodyDefinition& definition, double now);
   void take_velocity_error(std::uint32_t number);
+  [[gnu::cold]] Vec3 sliding_velocity(std::uint32_t number, const Vec3& velocity) const;
+  [[gnu::cold]] void slide_to_image(std::uint32_t number, const Vec3& shift, double now);
   bool filters_allow(std::uint32_t a, std::uint32_t b) const;
   bool bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const;
   bool is_valid(std::uint32_t number, double now) const;

@@ -16,10 +16,10 @@ namespace {
 /// Returns the position in the form in which a report can give it, or nullopt if it is too large. In periodic
 /// space a bound is in the image that the centre of its safe region selects; at times too coarse for small
 /// regions that image is any number of periods away.
-std::optional<Vec3> reported_place(const Vec3& position, const Space& space) {
+std::optional<Vec3> reported_place(const Vec3& position, const Space& space, double time) {
   for (int axis = 0; axis < 3; ++axis)
     if (!(std::abs(position[axis]) <= limits::largest_size)) return std::nullopt;
-  return space.wrapped(position).position;
+  return space.wrapped(position, time).position;
 }
 
 bool is_valid(const Bound& bound, const Vec3& place, double now, const WorldDefinition& world) {
@@ -73,7 +73,7 @@ bool Bodies::bodies_are_valid(double now, const std::vector<std::uint32_t>& dirt
   const std::size_t where_space_repeats = space_.repeats() ? numbers() : 0;
   if (!table_.is_valid() || !changes.is_valid(table_) || !sleep_records.is_valid(table_) ||
       !filters.is_valid(numbers()) || !masses.is_valid(numbers()) || !radii.is_valid(numbers()) ||
-      images.size() != where_space_repeats)
+      images.size() != where_space_repeats || rows.size() != (space_.slides() ? numbers() : 0))
     return false;
   std::vector<bool> is_listed(numbers(), false);
   for (const std::uint32_t number : dirty) {
@@ -94,13 +94,15 @@ bool Bodies::is_valid(std::uint32_t number, double now) const {
   WorldDefinition unbounded = definition_;
   unbounded.box.reset();
   BodyDefinition definition = definition_of(number);
-  const auto place = reported_place(body.bound.position, space_);
+  const auto place = reported_place(body.bound.position, space_, body.bound.time);
   if (!place) return false;
   definition.position = *place;
   if (!check_body(definition, unbounded, "restore") ||
       !check_radius(definition, no_body, definition_, "restore") ||
       !kinesphere::is_valid(body.bound, *place, now, unbounded) ||
-      (space_.repeats() && !images[number].is_valid(space_)))
+      (space_.repeats() && !images[number].is_valid(space_)) ||
+      (space_.slides() &&
+       !(std::abs(rows[number]) <= PeriodicImage::most_images && std::floor(rows[number]) == rows[number])))
     return false;
   if (!limits_are_valid(body, definition) || !carried_shape_is_valid(body, definition) ||
       !rigid_body_is_valid(number, now) || !radius_is_valid(number, now))

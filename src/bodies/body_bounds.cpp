@@ -47,7 +47,7 @@ GapLimits gap_at(const Bodies& bodies, double now, const CollisionShape& a, cons
   const Space& space = bodies.space();
   if (!space.repeats()) return visit_shapes(a, b, limits);
   Bound nearest = b.bound;
-  nearest.position += space.shift_to_nearest(b.bound.centre_at(now), a.bound.centre_at(now));
+  space.move(nearest, space.shift_to_nearest(b.bound.centre_at(now), a.bound.centre_at(now), now), now);
   return visit_shapes(a, {nearest, b.is_static, b.shape, b.carried_radius, b.rigid}, limits);
 }
 
@@ -73,15 +73,17 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
       bound.planned_acceleration,
       bound.acceleration_limit + (body.has_parts() ? turning->surface_acceleration(body.radius) : 0.0)};
   const Space& space = bodies.space();
-  if (space.repeats()) sphere.state.position = space.wrapped(sphere.state.position).position;
+  if (space.repeats()) space.wrap(sphere.state, now);
   return sphere;
 }
 
-BodyMotion motion_at(const Bodies& bodies, double now, std::uint32_t number) {
+BodyMotion motion_at(const Bodies& bodies, double now, std::uint32_t number, const Vec3& place) {
   const Body& body = bodies[number];
   const RigidRecord* const turning = bodies.rigid.find(body);
-  return {body.bound.velocity_at(now),
-          turning ? turning->after_report(now - body.bound.time).angular_velocity : Vec3{},
+  Vec3 velocity = body.bound.velocity_at(now);
+  if (bodies.space().slides()) [[unlikely]]
+    velocity = bodies.space().velocity_in_row(velocity, body.bound.centre_at(now), place);
+  return {velocity, turning ? turning->after_report(now - body.bound.time).angular_velocity : Vec3{},
           bodies.radii.any() ? changing_size(bodies, now, number).rate : 0.0, body.contact_events};
 }
 

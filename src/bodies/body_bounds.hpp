@@ -36,18 +36,23 @@ inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t num
 inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t number) {
   return collision_shape_of(bodies, number, bodies[number].bound);
 }
-/// Returns the shift that moves body b to the image in which body a may meet it while both are in their safe
-/// regions. Requires periodic space.
-inline Vec3 shift_to_meet(const Bodies& bodies, std::uint32_t a, std::uint32_t b) {
-  return bodies.space().shift_between_images(bodies.images[b].middle, bodies.images[a].middle);
+/// Returns the shift that moves body b to the image in which body a may meet it, from now on, while both are
+/// in their safe regions. Requires periodic space.
+inline Vec3 shift_to_meet(const Bodies& bodies, std::uint32_t a, std::uint32_t b, double now) {
+  return bodies.space().shift_between_images(bodies.images[b].middle, bodies.images[a].middle, now);
 }
-/// Calls visit_shapes() for two bodies, in the image in which they may meet.
+/// Moves a bound, from now on, by a shift to another image.
+inline void move_to_image(const Space& space, const Vec3& shift, BoundAt& bound) {
+  bound.centre += shift;
+  if (space.slides()) bound.velocity += space.velocity_of(shift);
+}
+/// Calls visit_shapes() for two bodies, in the image in which they may meet from now on.
 /// Worlds without shapes and without periodic space take the shortest path.
 template <class Visit>
-auto visit_pair(const Bodies& bodies, std::uint32_t a, std::uint32_t b, Visit visit) {
+auto visit_pair(const Bodies& bodies, std::uint32_t a, std::uint32_t b, double now, Visit visit) {
   if (bodies.space().repeats()) {
     Bound seen = bodies[b].bound;
-    seen.position += shift_to_meet(bodies, a, b);
+    bodies.space().move(seen, shift_to_meet(bodies, a, b, now), now);
     if (!bodies.rigid.with_parts()) return visit(bodies[a].bound, seen);
     return visit_shapes(collision_shape_of(bodies, a), collision_shape_of(bodies, b, seen), visit);
   }
@@ -71,8 +76,8 @@ inline GapLimits gap_to_wall(const CollisionShape& body, const HalfSpace& inside
 }
 /// Returns the body in the form that events contain.
 Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number);
-/// Returns how the body moves in this form.
-BodyMotion motion_at(const Bodies& bodies, double now, std::uint32_t number);
+/// Returns how the body moves in this form, in its image at this place.
+BodyMotion motion_at(const Bodies& bodies, double now, std::uint32_t number, const Vec3& place);
 /// Returns a box around the shape now, limited to existing space and cut off where no body can be.
 Box box_now(const Bodies& bodies, const CollisionShape& extent, double now);
 /// Returns the box of a static body, enlarged by its sensor reach.

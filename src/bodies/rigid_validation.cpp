@@ -104,7 +104,8 @@ Result<void> check_rigid_body(const RigidBody& body, const WorldDefinition& worl
 
 Result<void> check_new_rigid_body(const RigidBody& body, const WorldDefinition& world,
                                   std::string_view call) {
-  auto valid = check_keeps_size(body.body, call);
+  auto valid = check_no_shear(world, call);
+  if (valid) valid = check_keeps_size(body.body, call);
   if (valid) valid = check_rigid_body(body, world, call);
   if (!valid) return valid;
   WorldDefinition without_walls = world;

@@ -103,7 +103,7 @@ Shape normalized(Shape shape, const WorldDefinition& world) {
   if (auto* solid = std::get_if<HalfSpace>(&shape); solid && std::abs(norm(solid->normal) - 1.0) > 0x1p-51)
     solid->normal = solid->normal / norm(solid->normal);
   if (auto* ball = std::get_if<Ball>(&shape); ball && space.repeats())
-    ball->centre = space.wrapped(ball->centre).position;
+    ball->centre = space.wrapped(ball->centre, world.start_time).position;
   if (auto* box = std::get_if<Box>(&shape); box && space.is_flat()) {
     box->upper.z = coordinate_limit(world);
     box->lower.z = -box->upper.z;

@@ -11,6 +11,7 @@
 #include "bound/triangle.hpp"
 #include "contact/contact_rule.hpp"
 #include "kinesphere/limits.hpp"
+#include "space/space.hpp"
 
 namespace kinesphere {
 namespace {
@@ -158,6 +159,17 @@ void require_plane(InputCheck& check, const Subject& subject, const Vec3& value,
                 "must have z = 0 in two dimensions", value);
 }
 
+namespace {
+
+/// Returns the time from which on images that slide go too far between two times that there are.
+double time_of_coarse_slides(const WorldDefinition& world) {
+  if (world.shear_rate == 0.0) return limits::largest_time;
+  const Space space(world);
+  return 0x1p48 * Space::most_slide * space.period().x / std::abs(space.slide_speed());
+}
+
+}  // namespace
+
 Result<void> check_world(const WorldDefinition& definition) {
   InputCheck check("World::create");
   check.positive({"contact_tolerance"}, definition.contact_tolerance)
@@ -194,9 +206,34 @@ Result<void> check_world(const WorldDefinition& definition) {
                "must be no axis where there is no box to give the period", axes)
       .require(dimensions == 3 || !definition.periodic.z, ErrorCode::out_of_range, {"periodic"},
                "must be x, y or both in two dimensions, where there is no z", axes);
+  check.finite({"shear_rate"}, definition.shear_rate);
+  if (definition.shear_rate != 0.0) {
+    check.require(definition.periodic.x && definition.periodic.y, ErrorCode::out_of_range, {"shear_rate"},
+                  "must be 0 unless x and y are periodic", definition.shear_rate);
+    if (!check.error()) {
+      const double speed = definition.shear_rate * (definition.box->upper.y - definition.box->lower.y);
+      check.require(
+          std::abs(speed) <= limits::largest_speed && std::abs(speed) >= 1.0 / limits::largest_speed,
+          ErrorCode::out_of_range, {"shear_rate"},
+          "must give speeds from 1e-100 to 1e100 across the box, but gives", speed, definition.shear_rate);
+    }
+    if (!check.error()) {
+      const double latest = time_of_coarse_slides(definition);
+      check.require(std::abs(definition.start_time) <= latest, ErrorCode::out_of_range, {"start_time"},
+                    "must, so that times tell images apart that slide, be within +-", latest,
+                    definition.start_time);
+    }
+  }
   // The box must be large enough for a body of radius 0.
   if (!check.error()) require_fit(check, "box", {.radius = 0.0}, 0.0, no_body, definition);
   return check.result();
+}
+
+Result<void> check_no_shear(const WorldDefinition& definition, std::string_view call) {
+  return InputCheck(call)
+      .require(definition.shear_rate == 0.0, ErrorCode::unsupported, {"shear_rate"},
+               "must be 0 for this call", definition.shear_rate)
+      .result();
 }
 
 double needed_in_period(const BodyDefinition& body, double reach, const WorldDefinition& world) {
@@ -220,6 +257,7 @@ Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world
 }
 
 Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::string_view call) {
+  if (auto valid = check_no_shear(world, call); !valid) return valid;
   InputCheck check(call);
   std::visit([&](const auto& solid) { require_shape(check, solid, world); }, shape);
   const bool repeats = world.periodic.x || world.periodic.y || world.periodic.z;
@@ -351,12 +389,17 @@ Result<void> check_report(const State& state, BodyId body, double time, const Wo
   return check.result();
 }
 
-Result<void> check_time(double until, double now) {
-  if (until >= now && until <= limits::largest_time) return {};
+Result<void> check_time(double until, double now, const WorldDefinition& world) {
+  if (until >= now && until <= limits::largest_time &&
+      (world.shear_rate == 0.0 || until <= time_of_coarse_slides(world)))
+    return {};
   return InputCheck("advance")
       .finite({"until"}, until)
       .require(until <= limits::largest_time, ErrorCode::out_of_range, {"until"}, "must be at most",
                limits::largest_time, until)
+      .require(until <= time_of_coarse_slides(world), ErrorCode::out_of_range, {"until"},
+               "must, so that times tell images apart that slide, be at most", time_of_coarse_slides(world),
+               until)
       .require(until >= now, ErrorCode::time_backwards, {"until"}, "must not lie before the current time",
                now, until)
       .result();

@@ -15,6 +15,8 @@ namespace kinesphere {
 struct RigidRecord;
 
 Result<void> check_world(const WorldDefinition& definition);
+/// Validates that images do not slide (WorldDefinition::shear_rate), for what cannot be where they do.
+Result<void> check_no_shear(const WorldDefinition& definition, std::string_view call);
 /// `call` is the name of the API function, for the message.
 Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world, std::string_view call);
 Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::string_view call);
@@ -65,7 +67,7 @@ Result<void> check_report(const State& state, BodyId body, double time, const Wo
 inline constexpr double not_said = std::numeric_limits<double>::quiet_NaN();
 inline constexpr State no_answer{{not_said, not_said, not_said}, {not_said, not_said, not_said}};
 inline constexpr Rotation no_rotation{{not_said, not_said, not_said, not_said}, {}};
-Result<void> check_time(double until, double now);
+Result<void> check_time(double until, double now, const WorldDefinition& world);
 Result<void> check_timer(const Timer& timer, double now);
 /// Returns the error of a call on a world that has been moved from.
 Error moved_from_error(std::string_view call);

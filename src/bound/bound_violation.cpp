@@ -6,7 +6,7 @@ namespace kinesphere {
 
 std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& after, double radius,
                                               const std::optional<Vec3>& new_velocity,
-                                              double contact_tolerance) {
+                                              double contact_tolerance, double speed_of_terms) {
   const double s = after.time - before.time;
   const Vec3 way = after.position - before.centre_at(after.time);
   const double position_errors = (before.radius - radius) + (after.radius - radius);
@@ -21,7 +21,8 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
   // At the top of a throw the expected velocity is the difference of two larger ones.
   const double expected_terms =
       new_velocity ? norm(*new_velocity) : norm(before.velocity) + norm(before.planned_acceleration) * s;
-  const double velocity_slack = 0x1p-30 * (norm(after.velocity) + expected_terms + change_limit);
+  const double velocity_slack =
+      0x1p-30 * (norm(after.velocity) + expected_terms + change_limit + speed_of_terms);
   bool left = deviation > deviation_limit + position_slack;
   bool jumped = change > change_limit + velocity_slack;
   if (!left && !jumped) return std::nullopt;

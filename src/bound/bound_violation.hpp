@@ -28,10 +28,11 @@ inline double time_rounding(double before, double after) {
 /// velocity that the caller has set since the previous report: then that report was made at this very time,
 /// or only its position counts. Rounding errors up to 1/16 of `contact_tolerance` are not a violation, as the
 /// tolerance covers them, and neither is as far as the body moves, or changes its velocity, in the
-/// time_rounding() of the two reports.
+/// time_rounding() of the two reports. `speed_of_terms`: the size of what velocities have been computed from,
+/// beside these (length / time).
 std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& after, double radius,
                                               const std::optional<Vec3>& new_velocity,
-                                              double contact_tolerance);
+                                              double contact_tolerance, double speed_of_terms = 0.0);
 
 /// Returns the acceleration (length / time^2), beyond the planned one, that explains how far a report
 /// deviates from the bound of the previous one: the least of what its place and its velocity need, plus a

@@ -189,7 +189,8 @@ void describe(Event& event, const Sphere& first, const Sphere& second, const Spa
   event.second_mass = second.mass;
   event.second_angular_velocity = second.rotation.angular_velocity;
   if (space.repeats())
-    event.second_state.position += space.shift_to_nearest(second.state.position, first.state.position);
+    space.move(event.second_state,
+               space.shift_to_nearest(second.state.position, first.state.position, event.time));
   if (first.rigid || second.rigid || first.shape || second.shape)
     describe_shapes(event, first, second, event.second_state.position, space.is_flat());
   else

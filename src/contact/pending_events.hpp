@@ -81,7 +81,12 @@ class PendingEvents {
   template <class IsThere, class SphereNow, class SensesIn>
   std::optional<Event> pop(ContactGraph& graph, IsThere is_there, SphereNow sphere, SensesIn senses_in,
                            const std::optional<Box>& box) {
-    note_response(graph, [&](std::uint32_t number) { return motion_of(sphere(number)); });
+    note_response(graph, [&](std::uint32_t number, const Vec3& seen) {
+      const Sphere body = sphere(number);
+      BodyMotion motion = motion_of(body);
+      motion.velocity = graph.space().velocity_in_row(motion.velocity, body.state.position, seen);
+      return motion;
+    });
     std::optional<Event> event;
     if (!ended_.empty()) {
       event = ended_.extract(ended_.begin()).value();
@@ -115,13 +120,16 @@ class PendingEvents {
   /// Takes note of the response to the last delivered begin: if the two still approach with more than half of
   /// their speed, they are let through until that changes; otherwise their next approach is an event. pop()
   /// does this before it delivers another event. Call it before velocities change for another reason, and
-  /// before bodies are recertified. `motion(number)` returns how a body moves now.
+  /// before bodies are recertified. `motion(number, place)` returns how a body moves now, in its image at
+  /// this place.
   template <class MotionNow>
   void note_response(ContactGraph& graph, MotionNow motion) {
     if (!delivered_) return;
-    const BodyMotion first = motion(graph.number_of(delivered_->event.first));
-    const bool is_pair = delivered_->event.second != no_body;
-    note_response(graph, first, is_pair ? motion(graph.number_of(delivered_->event.second)) : first);
+    const Event& event = delivered_->event;
+    const BodyMotion first = motion(graph.number_of(event.first), event.first_state.position);
+    const bool is_pair = event.second != no_body;
+    note_response(graph, first,
+                  is_pair ? motion(graph.number_of(event.second), event.second_state.position) : first);
     delivered_.reset();
   }
   /// Returns true if note_response() would look at a begin.

@@ -4,8 +4,21 @@
 
 #include "contact/contact_predictor.hpp"
 #include "core/core.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere::core {
+
+/// Returns the distance of the centres of two safe regions, in the nearest images; where these slide, the
+/// least one of some times until `end`.
+double Core::least_distance(const Ball& a, const Ball& b, double end) const {
+  const Vec3 from = region_centre(a), to = region_centre(b);
+  if (!space_.slides()) return norm(balls_.nearest(to - from));
+  double least = infinity;
+  const double last = std::min(end, balls_.time() + 1.0);
+  for (const double time : {balls_.time(), 0.5 * (balls_.time() + last), last})
+    least = std::min(least, norm(to + space_.shift_to_nearest(to, from, time) - from));
+  return least;
+}
 
 const char* Core::audit(const std::function<Claim(std::uint32_t, std::uint32_t)>& claim_of) const {
   const auto present = [this](std::uint32_t number) {
@@ -32,7 +45,7 @@ const char* Core::audit(const std::function<Claim(std::uint32_t, std::uint32_t)>
         return lists_.contains(one.list, number);
       };
       const double regions = (double{ball.region} + double{other.region}) * unit_;
-      const double distance = norm(balls_.nearest(region_centre(ball) - region_centre(other)));
+      const double distance = least_distance(ball, other, std::min(ball.own, other.own));
       const bool near = distance <= regions + ball.radius + other.radius + tolerance_;
       if (ball.is(Ball::passive) && other.is(Ball::passive)) continue;
       if (claim_of(a, b) == Claim::nothing) continue;
@@ -47,7 +60,8 @@ const char* Core::audit(const std::function<Claim(std::uint32_t, std::uint32_t)>
           norm(balls_.between(a, b)) - (ball.radius + other.radius) - balls_.growth(a) - balls_.growth(b);
       if (!(gap > tolerance_)) continue;
       Bound image = balls_.bound(b);
-      image.position += balls_.between(a, b) - (balls_.position(b) - balls_.position(a));
+      const Vec3 way = balls_.position(b) - balls_.position(a);
+      space_.move(image, balls_.between(a, b) - way, balls_.time());
       // Both times are early, by up to a hundredth, each by another part.
       const double meeting = earliest_meeting(own, image, balls_.time(), due);
       if (meeting < due - 0x1p-6 * (due - balls_.time()) - 0x1p-40 * std::abs(due)) return "D";

@@ -19,6 +19,8 @@ class Balls {
 
   double time() const { return now_; }
   void set_time(double time) { now_ = time; }
+  /// Images have slid so far (Periods).
+  void set_slide(double slide) { periods_.slide = slide; }
   const Periods& periods() const { return periods_; }
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(balls_.size()); }
@@ -133,14 +135,23 @@ class Balls {
     return balls_[number].acceleration_limit == 0.0 &&
            (drifts_.empty() || drifts_[number].growth_speed == 0.0);
   }
-  Vec3 nearest(Vec3 way) const {
+  // The way to the nearest image. Where images slide: how many rows of them it is away, and the way there.
+  double rows(const Vec3& way) const { return nearest_count(way.y, periods_.inverse.y); }
+  Vec3 nearest_in_rows(Vec3 way) const {
+    way.x -= periods_.slide * rows(way);
+    return nearest(way);
+  }
+  [[gnu::always_inline]] Vec3 nearest(Vec3 way) const {
     if (periods_.any)
       for (int axis = 0; axis < 3; ++axis)
         way[axis] = nearest_image(way[axis], periods_.length[axis], periods_.inverse[axis]);
     return way;
   }
   /// Returns the vector from the centre of one bound to that of the nearest image of another.
-  Vec3 between(std::uint32_t from, std::uint32_t to) const { return nearest(position(to) - position(from)); }
+  Vec3 between(std::uint32_t from, std::uint32_t to) const {
+    const Vec3 way = position(to) - position(from);
+    return periods_.slides ? nearest_in_rows(way) : nearest(way);
+  }
 
   static void serialize(auto& self, auto& archive) { archive(self.balls_, self.drifts_, self.grows_); }
   /// Validates a record that was read from bytes.

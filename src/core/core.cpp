@@ -20,21 +20,33 @@ double region_unit(const WorldDefinition& definition) {
 }
 
 Periods periods_of(const Space& space) {
-  Periods periods{.length = space.period(), .any = space.repeats()};
+  Periods periods{.length = space.period(),
+                  .slide_speed = space.slide_speed(),
+                  .any = space.repeats(),
+                  .slides = space.slides()};
   for (int axis = 0; axis < 3; ++axis)
     if (space.repeats(axis)) periods.inverse[axis] = 1.0 / periods.length[axis];
   return periods;
+}
+
+/// Returns the periods that a search in cells knows (region units). Those of y are left out where images
+/// slide: Core::search_rows() has them.
+Vec3 periods_of_cells(const Space& space, double unit) {
+  const Vec3 periods = space.period() / unit;
+  return space.slides() ? Vec3{periods.x, 0.0, periods.z} : periods;
 }
 
 }  // namespace
 
 Core::Core(const WorldDefinition& definition)
     : dimensions_(definition.dimensions),
+      space_(definition),
       unit_(region_unit(definition)),
       margin_(rounding_margin(definition)),
       tolerance_(definition.contact_tolerance),
-      balls_(periods_of(Space(definition)), definition.start_time),
-      cells_(balls_.periods().length / unit_, definition.dimensions) {
+      parting_(ContactRule(definition).release_gap()),
+      balls_(periods_of(space_), definition.start_time),
+      cells_(periods_of_cells(space_, unit_), definition.dimensions) {
   for (int axis = 0; axis < 3; ++axis)
     if (balls_.periods().length[axis] > 0.0) origin_[axis] = definition.box->lower[axis];
   const std::optional<Box> box = walls_of(definition);
@@ -46,6 +58,7 @@ void Core::enter(std::uint32_t number, const Bound& bound, bool is_passive, bool
   balls_.grow(number + 1);
   if (changes_.size() < balls_.size()) changes_.resize(balls_.size());
   changes_[number] = 0;
+  if (space_.slides()) search_ends_.resize(balls_.size(), infinity);
   Ball& ball = balls_[number] = Ball();
   ball.due = ball.second = ball.own = infinity;
   ball.set(Ball::passive, is_passive);

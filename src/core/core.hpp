@@ -16,6 +16,12 @@
 // By H, two balls that touch are in safe regions within reach of each other, or one of the two is due. By N
 // they are neighbours then, and by D one of the two is due no later than they touch.
 //
+// Where images slide (space/space.hpp), two regions may come within reach across y while neither moves. So a
+// ball whose search reaches across y looks in these images for all that come within reach until the end of
+// its search, `search_ends_`, by when they slide by no more than Space::most_slide: its own time comes no
+// later, and it searches anew. Of the two the one that has searched last has found the other one, if they
+// are within reach of each other at any time until then. In sum: N holds of the images at each time.
+//
 // The invariants concern the true motion. A report makes a bound tighter, so it breaks none of them. A new
 // velocity breaks H and D of that ball: `own` and `due` are computed anew, from its list. A ball that may
 // leave its safe region gets another one, which breaks N, too: one search mends it.
@@ -49,6 +55,7 @@
 #include "kinesphere/event.hpp"
 #include "kinesphere/world_definition.hpp"
 #include "parallel/thread_pool.hpp"
+#include "space/space.hpp"
 
 namespace kinesphere::core {
 
@@ -59,7 +66,11 @@ class Core {
 
   double time() const { return balls_.time(); }
   /// Advances the clock. Precondition: nothing is due before.
-  void set_time(double time) { balls_.set_time(time); }
+  void set_time(double time) {
+    balls_.set_time(time);
+    if (space_.slides()) [[unlikely]]
+      balls_.set_slide(space_.slide_at(time));
+  }
   /// Returns the balls by number, and their bounds.
   const Balls& balls() const { return balls_; }
   /// Returns the memory in use (bytes): of balls and their safe regions, and of who is due and why.
@@ -102,7 +113,8 @@ class Core {
 
   /// Serializes what rebuild() cannot find again.
   static void serialize(auto& self, auto& archive) {
-    archive(self.balls_, self.changes_, self.first_radius_, self.measured_);
+    archive(self.balls_, self.changes_, self.search_ends_, self.largest_reach_, self.reach_uses_,
+            self.first_radius_, self.measured_);
     if constexpr (std::is_const_v<std::remove_reference_t<decltype(self)>>) {
       archive(self.saved());
     } else {
@@ -187,6 +199,8 @@ class Core {
     if (ghosts_ != nullptr) note_all(number);
   }
 
+  double least_distance(const Ball& a, const Ball& b, double end) const;
+
   // core.cpp: the loop.
   Result<void> handle(std::uint32_t number, Host& host);
   Result<void> handle_own(std::uint32_t number, Host& host);
@@ -252,6 +266,9 @@ class Core {
   std::uint32_t candidates(std::uint32_t number, std::span<const std::uint32_t> neighbours, double duration,
                            std::span<double, most_lanes> apart) const;
   double apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const;
+  double apart_until(const BoundAt& own, const BoundAt& other, double horizon) const;
+  [[gnu::cold]] double apart_in_rows_until(std::uint32_t number, std::uint32_t neighbour,
+                                           double horizon) const;
 
   // safe_regions.cpp
   Result<void> leave_region(std::uint32_t number, Host& host);
@@ -264,6 +281,11 @@ class Core {
   void update_lists(std::uint32_t number);
   void forget(std::uint32_t number, std::uint32_t neighbour);
   void forget_neighbours(std::uint32_t number);
+  void set_search_end(std::uint32_t number);
+  void search_rows(const Ball& ball, float reach, double duration, RegionSearch& search) const;
+  void measure_reaches();
+  void move_to_row(std::uint32_t number, Vec3& place);
+  std::vector<std::uint32_t> all_with_regions() const;
   double next_radius(std::uint32_t number);
   double near_now(std::uint32_t number) const;
   double widest_region(const Ball& ball) const;
@@ -280,6 +302,7 @@ class Core {
     static void serialize(auto& self, auto& archive) { archive(self.reaches, self.lists); }
   };
   Saved saved() const;
+  bool may_be_near(const Ball& a, float reach_of_a, const Ball& b, float reach_of_b) const;
   bool is_valid(std::uint32_t number, std::span<const std::vector<std::uint32_t>> lists) const;
 
   // arrivals.cpp
@@ -301,11 +324,13 @@ class Core {
   double clear_of_wall(std::uint32_t number, const HalfSpace& inside) const;
 
   int dimensions_;
+  Space space_;
   std::vector<std::pair<Wall, HalfSpace>> walls_;  ///< that there are, and what is on the inner side of each
   Vec3 origin_{};     ///< of region units: the corner of the primary box on axes that repeat
   double unit_;       ///< one region unit (length), a power of two
   double margin_;     ///< for rounding (length)
   double tolerance_;  ///< contact tolerance (length)
+  double parting_;    ///< gap at which two certainly touch no longer (length)
 
   Balls balls_;
   NeighbourLists lists_;
@@ -314,6 +339,13 @@ class Core {
   /// By number: of two neighbours, the one that has changed last has the larger value; those that have
   /// changed together may have the same one. 0 for passive ones.
   std::vector<std::uint64_t> changes_;
+  /// By number, empty unless images slide: until when the last search of the ball holds in the images across
+  /// y; infinity if it does not reach there.
+  std::vector<double> search_ends_;
+  /// Where images slide: no reach of a safe region is larger (region units). So often it has been used since
+  /// it was the least such number.
+  float largest_reach_ = 0.0F;
+  std::size_t reach_uses_ = 0;
   Ghosts* ghosts_ = nullptr;    ///< nullptr where each ball is the world's own
   double first_radius_ = 0.0;   ///< of the first safe region of a ball that arrives alone (length)
   Saved saved_;                 ///< from a snapshot, until rebuild()

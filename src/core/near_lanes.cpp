@@ -110,16 +110,21 @@ HWY_INLINE V limits(D d, const Ball* balls, const std::uint32_t* n) {
 #endif
 using V = hn::Vec<D>;
 
-HWY_INLINE V image(D d, V way, double period, double inverse) {
+HWY_INLINE V image_count(D d, V way, double inverse) {
   const V rounder = hn::Set(d, 0x1.8p52);
-  const V whole = hn::Sub(hn::Add(hn::Mul(way, hn::Set(d, inverse)), rounder), rounder);
-  return hn::Sub(way, hn::Mul(hn::Set(d, period), whole));
+  return hn::Sub(hn::Add(hn::Mul(way, hn::Set(d, inverse)), rounder), rounder);
+}
+HWY_INLINE V image(D d, V way, double period, double inverse) {
+  return hn::Sub(way, hn::Mul(hn::Set(d, period), image_count(d, way, inverse)));
 }
 HWY_INLINE V dot(V a, V b, V c, V e, V f, V g) {
   return hn::Add(hn::Add(hn::Mul(a, e), hn::Mul(b, f)), hn::Mul(c, g));
 }
 
 using M = hn::Mask<D>;
+
+/// Of neighbours: there are none, they repeat with the periods, or these slide as well.
+enum class Images { none, repeat, slide };
 
 HWY_INLINE std::uint32_t bits_of(D d, M mask) {
   std::uint8_t bits[8] = {};
@@ -196,7 +201,7 @@ struct RelativeMotions {
   V square, approach, speed;  ///< |X|^2, -X V, |V|^2
   V passing;                  ///< |X x V|^2
 
-  template <bool drifts, bool repeats>
+  template <bool drifts, Images images>
   HWY_INLINE static RelativeMotions of(D d, const Motions& own, const Ball* balls, const std::uint32_t* n,
                                        const PairQuery& q) {
     static_assert(grows || !drifts);
@@ -207,12 +212,19 @@ struct RelativeMotions {
     m.x = hn::Sub(own.x, b.x);
     m.y = hn::Sub(own.y, b.y);
     m.z = hn::Sub(own.z, b.z);
-    if constexpr (repeats) {
+    [[maybe_unused]] V rows = hn::Zero(d);
+    if constexpr (images == Images::slide) {
+      rows = image_count(d, m.y, q.periods->inverse.y);
+      m.x = hn::Sub(m.x, hn::Mul(hn::Set(d, q.periods->slide), rows));
+    }
+    if constexpr (images != Images::none) {
       m.x = image(d, m.x, q.periods->length.x, q.periods->inverse.x);
       m.y = image(d, m.y, q.periods->length.y, q.periods->inverse.y);
       m.z = image(d, m.z, q.periods->length.z, q.periods->inverse.z);
     }
     m.u = hn::Sub(own.u, b.u);
+    if constexpr (images == Images::slide)
+      m.u = hn::Sub(m.u, hn::Mul(hn::Set(d, q.periods->slide_speed), rows));
     m.v = hn::Sub(own.v, b.v);
     m.w = hn::Sub(own.w, b.w);
     m.start = hn::Add(b.radius, own.radius);
@@ -315,18 +327,18 @@ HWY_INLINE V stay_apart_for(D d, const RelativeMotions<grows>& pairs, const Pair
   return hn::IfThenElseZero(hn::Gt(pairs.square, hn::Mul(near, near)), time);
 }
 
-template <bool grows, bool drifts, bool repeats>
+template <bool grows, bool drifts, Images images>
 HWY_INLINE std::uint32_t group(const Ball* balls, const std::uint32_t* n, const Motions& own,
                                const NearQuery& q, double* apart) {
   const D d;
-  const auto pairs = RelativeMotions<grows>::template of<drifts, repeats>(d, own, balls, n, q.pairs);
+  const auto pairs = RelativeMotions<grows>::template of<drifts, images>(d, own, balls, n, q.pairs);
   const M meet = hn::Not(pairs.stay_apart(d, hn::Set(d, q.duration)));
   const std::uint32_t found = bits_of(d, meet) & ((1u << hn::Lanes(d)) - 1);
   if (found != 0) hn::StoreU(stay_apart_for<grows, drifts>(d, pairs, q.pairs), d, apart);
   return found;
 }
 
-template <bool grows, bool drifts, bool repeats>
+template <bool grows, bool drifts, Images images>
 std::uint32_t candidates(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                          const NearQuery& query, double* apart) {
   const std::size_t lanes = hn::Lanes(D());
@@ -334,39 +346,41 @@ std::uint32_t candidates(const Ball* balls, const std::uint32_t* neighbours, std
   std::uint32_t found = 0;
   std::size_t k = 0;
   for (; k + lanes <= count; k += lanes)
-    found |= group<grows, drifts, repeats>(balls, neighbours + k, own, query, apart + k) << k;
+    found |= group<grows, drifts, images>(balls, neighbours + k, own, query, apart + k) << k;
   if (k < count) {
     std::uint32_t rest[8];
     for (std::size_t lane = 0; lane < lanes; ++lane) rest[lane] = neighbours[k + lane < count ? k + lane : k];
-    found |= (group<grows, drifts, repeats>(balls, rest, own, query, apart + k) & ((1u << (count - k)) - 1))
+    found |= (group<grows, drifts, images>(balls, rest, own, query, apart + k) & ((1u << (count - k)) - 1))
              << k;
   }
   return found;
 }
 
-/// Calls f(grows, drifts, repeats) with the constants that suit the world.
+/// Calls f(grows, drifts, images) with the constants that suit the world.
 HWY_INLINE auto as_in_world(const PairQuery& query, auto f) {
-  const auto of_space = [&](auto repeats) HWY_ATTR {
+  const auto of_space = [&](auto images) HWY_ATTR {
     const std::true_type yes;
     const std::false_type no;
-    if (query.drifts != nullptr) return f(yes, yes, repeats);
-    return query.grows ? f(yes, no, repeats) : f(no, no, repeats);
+    if (query.drifts != nullptr) return f(yes, yes, images);
+    return query.grows ? f(yes, no, images) : f(no, no, images);
   };
-  return query.periods->any ? of_space(std::true_type()) : of_space(std::false_type());
+  if (!query.periods->any) return of_space(std::integral_constant<Images, Images::none>());
+  return query.periods->slides ? of_space(std::integral_constant<Images, Images::slide>())
+                               : of_space(std::integral_constant<Images, Images::repeat>());
 }
 
 std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
                        const NearQuery& query, double* apart) {
-  return as_in_world(query.pairs, [&](auto grows, auto drifts, auto repeats) HWY_ATTR {
-    return candidates<grows, drifts, repeats>(balls, neighbours, count, query, apart);
+  return as_in_world(query.pairs, [&](auto grows, auto drifts, auto images) HWY_ATTR {
+    return candidates<grows, drifts, images>(balls, neighbours, count, query, apart);
   });
 }
 
-template <bool grows, bool drifts, bool repeats>
+template <bool grows, bool drifts, Images images>
 HWY_INLINE V group_apart(D d, const Ball* balls, const std::uint32_t* first, const std::uint32_t* second,
                          const PairQuery& q) {
   const Motions own = motions_of<grows, drifts>(d, balls, first, q);
-  const auto pairs = RelativeMotions<grows>::template of<drifts, repeats>(d, own, balls, second, q);
+  const auto pairs = RelativeMotions<grows>::template of<drifts, images>(d, own, balls, second, q);
   double ends[hn::MaxLanes(d)];
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) ends[lane] = balls[first[lane]].own;
   const M apart = pairs.stay_apart(d, hn::Sub(hn::LoadU(d, ends), hn::Set(d, q.now)));
@@ -377,10 +391,10 @@ HWY_INLINE V group_apart(D d, const Ball* balls, const std::uint32_t* first, con
 
 void pairs_stay_apart(const Ball* balls, const std::uint32_t* first, const std::uint32_t* second,
                       std::size_t count, const PairQuery& query, double* apart) {
-  as_in_world(query, [&](auto grows, auto drifts, auto repeats) HWY_ATTR {
+  as_in_world(query, [&](auto grows, auto drifts, auto images) HWY_ATTR {
     const D d;
     for (std::size_t k = 0; k < count; k += hn::Lanes(d))
-      hn::StoreU(group_apart<grows, drifts, repeats>(d, balls, first + k, second + k, query), d, apart + k);
+      hn::StoreU(group_apart<grows, drifts, images>(d, balls, first + k, second + k, query), d, apart + k);
   });
 }
 

@@ -20,17 +20,25 @@ inline void prefetch_line(const void* address) {
 #endif
 }
 
-/// Periods of the axes that repeat, and their inverses; 0 on the others.
+/// Periods of the axes that repeat, and their inverses; 0 on the others. Where images slide, the next row of
+/// them, up y, is displaced along x by `slide` (length) at present, and moves at `slide_speed`
+/// (space/space.hpp).
 struct Periods {
   Vec3 length{};
   Vec3 inverse{};
+  double slide = 0.0, slide_speed = 0.0;
   bool any = false;
+  bool slides = false;
 };
 
-/// Returns `way` as the nearest image has it. Adding and subtracting 3/2 2^52 rounds to a whole number.
-[[gnu::always_inline]] inline double nearest_image(double way, double period, double inverse) {
+/// Returns the number of whole periods nearest to `way`. Adding and subtracting 3/2 2^52 rounds.
+[[gnu::always_inline]] inline double nearest_count(double way, double inverse) {
   constexpr double rounder = 0x1.8p52;
-  return way - period * ((way * inverse + rounder) - rounder);
+  return (way * inverse + rounder) - rounder;
+}
+/// Returns `way` as the nearest image has it.
+[[gnu::always_inline]] inline double nearest_image(double way, double period, double inverse) {
+  return way - period * nearest_count(way, inverse);
 }
 
 /// What concerns all pairs at the present.

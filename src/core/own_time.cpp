@@ -60,14 +60,15 @@ double Core::clear_of_walls(std::uint32_t number, Host& host) const {
 }
 
 /// Returns a time for which the ball stays, from now on, so near the centre of its safe region on axes that
-/// repeat that its image is certain (widest_region()), as it does in a region that is not wider.
+/// repeat that its image is certain (widest_region()), as it does in a region that is not wider, and for
+/// which its last search holds in images that slide.
 double Core::keeps_image(std::uint32_t number) const {
   const Ball& ball = balls_[number];
+  double time = space_.slides() ? std::max(search_ends_[number] - balls_.time(), 0.0) : infinity;
   const double widest = widest_region(ball);
-  if (!(double{ball.region} * unit_ > widest) || ball.is(Ball::passive)) return infinity;
+  if (!(double{ball.region} * unit_ > widest) || ball.is(Ball::passive)) return time;
   const Vec3 way = balls_.position(number) - region_centre(ball), velocity = balls_.velocity(number);
   const double limit = ball.acceleration_limit + norm_one(balls_.plan(number));
-  double time = infinity;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(balls_.periods().length[axis] > 0.0)) continue;
     const double room = widest - margin_ - balls_.growth(number) - std::abs(way[axis]);
@@ -78,7 +79,8 @@ double Core::keeps_image(std::uint32_t number) const {
   return time;
 }
 
-/// Returns a time for which the ball stays in its safe region from now on, where its image is certain.
+/// Returns a time for which the ball stays in its safe region from now on, where its image is certain and its
+/// last search holds.
 double Core::stays(std::uint32_t number) const {
   const double stay = stays_inside(number);
   return balls_.periods().any ? std::min(stay, keeps_image(number)) : stay;

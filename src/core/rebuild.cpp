@@ -1,5 +1,6 @@
 // What a snapshot holds of a core, and how the rest is made anew.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "core/core.hpp"
@@ -82,7 +83,11 @@ bool Core::reports_now(std::uint32_t number, double time) const {
 }
 
 bool Core::rebuild(double time) {
-  balls_.set_time(time);
+  set_time(time);
+  if (search_ends_.size() != (space_.slides() ? balls_.size() : 0)) return false;
+  for (const double end : search_ends_)
+    if (std::isnan(end)) return false;
+  if (!(largest_reach_ >= 0.0F && largest_reach_ < 0x1p62F)) return false;
   if (!balls_.has_valid_drifts() || saved_.reaches.size() != balls_.size() ||
       changes_.size() != balls_.size() || saved_.lists.size() != balls_.size())
     return false;
@@ -112,6 +117,22 @@ void Core::assemble() {
   queued_for_ = balls_.size();
 }
 
+/// Returns true if two balls with these reaches may have found each other: where images slide, in any place
+/// along x of a row.
+bool Core::may_be_near(const Ball& a, float reach_of_a, const Ball& b, float reach_of_b) const {
+  if (cells_.are_near(a, reach_of_a, b, reach_of_b)) return true;
+  if (!space_.slides()) return false;
+  const double height = balls_.periods().length.y / unit_;
+  const double slide = Space::most_slide * balls_.periods().length.x / unit_;
+  for (const double row : {-1.0, 1.0}) {
+    Ball image = b;
+    image.centre[0] = a.centre[0];
+    image.centre[1] += static_cast<float>(row * height);
+    if (cells_.are_near(a, reach_of_a + static_cast<float>(slide), image, reach_of_b)) return true;
+  }
+  return false;
+}
+
 /// Returns false if no ball can be like this one, which was read from bytes. `lists`: in ascending order.
 bool Core::is_valid(std::uint32_t number, std::span<const std::vector<std::uint32_t>> lists) const {
   const Ball& ball = balls_[number];
@@ -139,7 +160,7 @@ bool Core::is_valid(std::uint32_t number, std::span<const std::vector<std::uint3
   // Each of two that are neighbours has the other, but for passive ones.
   return std::all_of(neighbours.begin(), neighbours.end(), [&](std::uint32_t other) {
     if (!contains(other) || other == number || balls_[other].is(Ball::arriving) ||
-        !cells_.are_near(ball, reach, balls_[other], saved_.reaches[other]))
+        !may_be_near(ball, reach, balls_[other], saved_.reaches[other]))
       return false;
     const std::vector<std::uint32_t>& others = lists[other];
     return balls_[other].is(Ball::passive) || std::binary_search(others.begin(), others.end(), number);

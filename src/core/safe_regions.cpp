@@ -57,6 +57,8 @@ double Core::widest_region(const Ball& ball) const {
     // space/space.hpp holds.
     const double room = std::max(0.25 * period - 3.0 * ball.radius - tolerance_, 0.0625 * period);
     if (period > 0.0) widest = std::min(widest, 0.33 * room);
+    if (period > 0.0 && axis == 0 && space_.slides()) [[unlikely]]
+      widest -= 0.17 * Space::most_slide * period;
   }
   return widest;
 }
@@ -88,6 +90,7 @@ Result<void> Core::leave_region(std::uint32_t number, Host& host) {
 void Core::move_region(std::uint32_t number, Host& host) {
   ++host.work_counters(number).starts;
   place_region(number, next_radius(number));
+  if (space_.slides()) set_search_end(number);
   const Ball& ball = balls_[number];
   if (balls_.periods().any) host.note_image(number, region_centre(ball));
   cells_.start_search(ball, reach(ball), search_);
@@ -144,6 +147,7 @@ void Core::place_region(std::uint32_t number, double radius) {
   const double room = widest - growth - resolved;
   radius = stands ? 0.0 : std::min(radius, room > 0.0 ? room : 0.5 * std::max(widest - growth, 0.0));
   if (speed > 0.0) centre += motion * (ahead * radius / speed);
+  if (space_.slides()) move_to_row(number, centre);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(balls_.periods().length[axis] > 0.0) || ball.is(Ball::passive)) continue;
     const double images = std::floor((centre[axis] - origin_[axis]) * balls_.periods().inverse[axis]);
@@ -154,12 +158,24 @@ void Core::place_region(std::uint32_t number, double radius) {
   for (int axis = 0; axis < 3; ++axis)
     ball.centre[axis] = static_cast<float>((centre[axis] - origin_[axis]) / unit_);
   if (ghosts_ != nullptr) ghosts_->note_region(number, region_centre(ball), double{reach(ball)} * unit_);
+  if (space_.slides()) largest_reach_ = std::max(largest_reach_, reach(ball));
   ball.walls &= Ball::at_walls;
   if (!ball.is(Ball::meets_walls)) return;
   const double extent = double{reach(ball)} * unit_;
   const Vec3 middle = region_centre(ball);
   for (const auto& [wall, inside] : walls_)
     if (dot(inside.normal, middle) - inside.offset < extent) ball.walls |= wall_bit(wall);
+}
+
+/// Moves a ball, and with it a place near it, to the row of images in which this place is in the primary box.
+void Core::move_to_row(std::uint32_t number, Vec3& place) {
+  Ball& ball = balls_[number];
+  const double rows = std::floor((place.y - origin_.y) * balls_.periods().inverse.y);
+  if (rows == 0.0) return;
+  const double speed = rows * space_.slide_speed(), since = balls_.time() - ball.time;
+  place.x -= rows * balls_.periods().slide;
+  ball.position.x -= rows * balls_.periods().slide - speed * since;
+  ball.velocity.x -= speed;
 }
 
 /// Gives the ball another safe region, which has no part in the lists of neighbours yet. Those of many balls
@@ -181,6 +197,7 @@ void Core::enter_region(std::uint32_t number, double radius, bool is_of_many, Ho
 /// Makes those within reach the neighbours of the ball, and it theirs; others are no longer.
 void Core::find_neighbours(std::uint32_t number, Host& host) {
   const Ball& ball = balls_[number];
+  if (space_.slides()) set_search_end(number);
   cells_.start_search(ball, cells_.reach_of(ball.slot), search_);
   if (ball.is(Ball::passive)) {
     join_lists(number, host);
@@ -205,6 +222,8 @@ void Core::join_lists(std::uint32_t number, Host& host) {
 /// Finds out who is not in reach of the ball any more, and who has come within reach.
 void Core::compare_neighbours(std::uint32_t number, Host& host) {
   cells_.finish_search(search_);
+  if (space_.slides() && search_ends_[number] < infinity)
+    search_rows(balls_[number], reach(balls_[number]), search_ends_[number] - balls_.time(), search_);
   std::size_t count = 0;
   for (const std::uint32_t other : search_.found) {
     search_.found[count] = other;
@@ -256,9 +275,70 @@ void Core::forget_neighbours(std::uint32_t number) {
   lists_.assign(balls_[number].list, {});
 }
 
+std::vector<std::uint32_t> Core::all_with_regions() const {
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t number = 0; number < balls_.size(); ++number)
+    if (balls_[number].has_region()) all.push_back(number);
+  return all;
+}
+
+/// Finds the largest reach of a safe region.
+void Core::measure_reaches() {
+  largest_reach_ = 0.0F;
+  reach_uses_ = 0;
+  for (const Ball& ball : balls_.all())
+    if (ball.has_region()) largest_reach_ = std::max(largest_reach_, reach(ball));
+}
+
+/// Chooses how long the search of a ball that has got a safe region holds in images that slide. They slide by
+/// its reach then, unless that is less than in the least steps of time, or more than Space::most_slide: a gas
+/// at a packing of 0.1 takes least time so.
+void Core::set_search_end(std::uint32_t number) {
+  const Ball& ball = balls_[number];
+  if (++reach_uses_ > 4 * present_) measure_reaches();
+  // So far, on y, it can reach others in the images across y.
+  const double across = double{reach(ball)} + double{largest_reach_} + parting_ / unit_;
+  const double y = double{ball.centre[1]};
+  const double height = balls_.periods().length.y / unit_;
+  search_ends_[number] = infinity;
+  if (y - across > 0.0 && y + across < height) return;
+  const double speed = std::abs(space_.slide_speed());
+  const double least = 0x1p-49 * std::abs(balls_.time()) * speed;
+  const double slide =
+      std::min(std::max(double{reach(ball)} * unit_, least), Space::most_slide * balls_.periods().length.x);
+  search_ends_[number] = balls_.time() + std::min(slide / speed, 1e300);
+}
+
+/// Adds to what a search in cells has found what comes within reach of the ball in the images across y within
+/// this time from now on, while these slide.
+void Core::search_rows(const Ball& ball, float reach, double duration, RegionSearch& search) const {
+  const double height = balls_.periods().length.y / unit_, width = balls_.periods().length.x / unit_;
+  const double slide = duration * space_.slide_speed() / unit_;
+  const double middle = balls_.periods().slide / unit_ + 0.5 * slide;
+  const float enlarged = RegionCells::raised(
+      static_cast<float>((double{reach} + 0.5 * std::abs(slide) + 0x1p-20 * (width + height))));
+  RegionSearch beyond;
+  for (const double row : {-1.0, 1.0}) {
+    const double y = double{ball.centre[1]} - row * height, x = double{ball.centre[0]} - row * middle;
+    Ball at = ball;
+    at.centre[0] = static_cast<float>(x - std::floor(x / width) * width);
+    at.centre[1] = static_cast<float>(y);
+    cells_.search(at, enlarged, beyond);
+    if (beyond.found.empty()) continue;
+    const std::size_t count = search.found.size();
+    if (search.room.size() < count + beyond.found.size())
+      search.room.resize(2 * (count + beyond.found.size()));
+    std::copy(beyond.found.begin(), beyond.found.end(),
+              search.room.begin() + static_cast<std::ptrdiff_t>(count));
+    search.found = std::span(search.room).first(count + beyond.found.size());
+    search.may_repeat = true;
+  }
+}
+
 /// Finds balls by their safe regions.
 std::vector<std::uint32_t> Core::find(const Vec3& centre, double radius) const {
   Vec3 place = centre - origin_;
+  if (space_.slides()) place = space_.wrapped(centre, balls_.time()).position - origin_;
   for (int axis = 0; axis < 3; ++axis)
     if (const double period = balls_.periods().length[axis]; period > 0.0)
       place[axis] -= std::floor(place[axis] * balls_.periods().inverse[axis]) * period;
@@ -267,7 +347,10 @@ std::vector<std::uint32_t> Core::find(const Vec3& centre, double radius) const {
   for (int axis = 0; axis < 3; ++axis) at.centre[axis] = static_cast<float>(place[axis] / unit_);
   at.region = static_cast<float>((radius + resolved) / unit_);
   RegionSearch search;
+  // A wide region reaches images beyond the next rows.
+  if (space_.slides() && !(radius < 0.5 * balls_.periods().length.y)) return all_with_regions();
   cells_.search(at, reach(at), search);
+  if (space_.slides()) search_rows(at, reach(at), 0.0, search);
   search.drop_repeats();
   return {search.found.begin(), search.found.end()};
 }

@@ -155,18 +155,35 @@ std::uint32_t Core::candidates(std::uint32_t number, std::span<const std::uint32
   return may_meet(balls_.all().data(), neighbours.data(), neighbours.size(), query, apart.data());
 }
 
-/// Returns a time before which the bounds of two neighbours do not come near each other; +infinity if they do
-/// not for `horizon` from now. Returns the present time if they may be near each other now, so that reports
-/// have to decide.
-double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const {
-  const BoundAt own = balls_.bound_now(number);
-  BoundAt other = balls_.bound_now(neighbour);
-  if (balls_.periods().any) other.centre = own.centre + balls_.nearest(other.centre - own.centre);
+/// Returns apart_until() of two bounds in the images in which they are nearest.
+[[gnu::always_inline]] inline double Core::apart_until(const BoundAt& own, const BoundAt& other,
+                                                       double horizon) const {
   const QuickReject pair(own, other);
   // What is near is never put off here: only the host remembers that it has been.
   if (pair.is_near(tolerance_)) return balls_.time();
   if (pair.stay_apart(horizon, margin_)) return infinity;
   return std::max(rounding::sum_down(balls_.time(), pair.meeting(horizon, margin_)), balls_.time());
+}
+
+/// Returns a time before which the bounds of two neighbours do not come near each other; +infinity if they do
+/// not for `horizon` from now. Returns the present time if they may be near each other now, so that reports
+/// have to decide.
+double Core::apart_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const {
+  if (space_.slides()) return apart_in_rows_until(number, neighbour, horizon);
+  const BoundAt own = balls_.bound_now(number);
+  BoundAt other = balls_.bound_now(neighbour);
+  if (balls_.periods().any) other.centre = own.centre + balls_.nearest(other.centre - own.centre);
+  return apart_until(own, other, horizon);
+}
+
+/// The same where images slide.
+double Core::apart_in_rows_until(std::uint32_t number, std::uint32_t neighbour, double horizon) const {
+  const BoundAt own = balls_.bound_now(number);
+  BoundAt other = balls_.bound_now(neighbour);
+  const Vec3 way = other.centre - own.centre;
+  other.centre = own.centre + balls_.nearest_in_rows(way);
+  other.velocity.x -= balls_.rows(way) * space_.slide_speed();
+  return apart_until(own, other, horizon);
 }
 
 }  // namespace kinesphere::core

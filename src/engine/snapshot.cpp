@@ -17,7 +17,7 @@ namespace {
 
 /// Raise the version if the fields change, or if the engine would continue differently from the same fields.
 constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                                  34,
+                                  35,
                                   "world",
                                   "World::restore",
                                   "snapshot",

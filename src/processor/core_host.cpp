@@ -197,7 +197,7 @@ void EventProcessor::note_image(std::uint32_t ball, const Vec3& centre) {
     bodies().images[ball].middle = body.bound.position;
     return;
   }
-  body.bound.position += bodies().images[ball].follow(bodies().space(), body.bound.centre_at(time_), centre);
+  bodies().move_to_image_of(ball, centre, time_);
 }
 
 }  // namespace kinesphere

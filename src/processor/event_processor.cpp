@@ -99,7 +99,8 @@ Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, Probe
   if (cause != ProbeCause::change) note_reports(numbers);
   for (const auto& [k, velocity, violation, acceleration_limit] : *broken) {
     Sphere reported = sphere(numbers[k]);
-    reported.state.velocity = velocity;
+    const Vec3 stored = bodies()[numbers[k]].bound.centre_at(time_);
+    reported.state.velocity = bodies().space().velocity_in_row(velocity, stored, reported.state.position);
     events_.queue(violation_event(time_, reported, violation, acceleration_limit));
     contacts().set_largest_acceleration(numbers[k], bodies().largest_acceleration(numbers[k]));
     invalidate(numbers[k]);
@@ -148,12 +149,6 @@ Result<SpotChecks::Census> EventProcessor::spot_check_due(std::span<const std::u
   return census;
 }
 
-void EventProcessor::invalidate(std::uint32_t number, bool turns) {
-  events_.outdate();
-  ++bodies()[number].revision;
-  dirty_.add(bodies(), number, turns);
-}
-
 /// Makes everything stale that depends on how the body has moved until now.
 [[gnu::always_inline]] inline void EventProcessor::turn_reported(std::uint32_t number, bool turns) {
   contacts().turn_reported(number);
@@ -166,6 +161,8 @@ void EventProcessor::invalidate(std::uint32_t number, bool turns) {
   if (!body.fresh(time_)) bodies().change_of(number).velocity = velocity;
   // A body with a report of now moves on with it at once, also if it awaits another report, having slept.
   if (body.bound.time == time_) body.bound.velocity = velocity;
+  if (bodies().space().slides()) [[unlikely]]
+    bodies().turn_in_image(number, velocity, time_);
   turn_reported(number, true);
 }
 
@@ -181,7 +178,7 @@ void EventProcessor::set_velocities(std::span<const BodyId> ids, std::span<const
     bool is_regular = true;
   };
   std::vector<Part> parts((ids.size() + least_part - 1) / least_part);
-  const bool may_share = lease.count() > 1 && parts.size() > 1;
+  const bool may_share = lease.count() > 1 && parts.size() > 1 && !bodies().space().slides();
   const auto for_each_part = [&](auto work) {
     lease.parallel_for(ids.size(), least_part, [&](std::size_t from, std::size_t to, std::size_t) {
       work(from, to, parts[from / least_part]);
@@ -263,8 +260,9 @@ void EventProcessor::turn_back(const Event& crossing) {
 }
 
 void EventProcessor::note_response() {
-  events_.note_response(contacts(),
-                        [this](std::uint32_t number) { return motion_at(bodies(), time_, number); });
+  events_.note_response(contacts(), [this](std::uint32_t number, const Vec3& place) {
+    return motion_at(bodies(), time_, number, place);
+  });
 }
 
 Result<void> EventProcessor::recertify_all() {

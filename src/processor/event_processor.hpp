@@ -94,7 +94,11 @@ class alignas(128) EventProcessor final : public core::Host {
   // Discontinuities.
   /// Nothing is known of the pairs of the body any longer. Marks it dirty. `turns`: its velocity alone
   /// changes.
-  void invalidate(std::uint32_t number, bool turns = false);
+  void invalidate(std::uint32_t number, bool turns = false) {
+    events_.outdate();
+    ++bodies()[number].revision;
+    dirty_.add(bodies(), number, turns);
+  }
   /// Sets the velocity of the body from the current time on.
   void set_velocity(BodyId body, const Vec3& velocity) {
     set_velocity(bodies().table().number_of(body), velocity);

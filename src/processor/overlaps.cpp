@@ -50,9 +50,10 @@ std::vector<Stretch> Overlaps::balls_of(std::span<const BodyDefinition> added) c
     if (!added[number].solid) continue;
     const Bound bound = bound_now(added[number], now_);
     const Vec3 centre = bound.centre_at(now_), half{bound.radius, bound.radius, bound.radius};
-    bodies_.space().for_each_image({centre - half, centre + half}, 0.0, [&](const Box&, const Vec3& shift) {
-      balls.push_back({.number = number, .middle = centre + shift, .radius = bound.radius});
-    });
+    bodies_.space().for_each_image(
+        {centre - half, centre + half}, 0.0, now_, [&](const Box&, const Vec3& shift) {
+          balls.push_back({.number = number, .middle = centre + shift, .radius = bound.radius});
+        });
   }
   return balls;
 }

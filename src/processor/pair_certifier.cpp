@@ -11,7 +11,8 @@ namespace kinesphere {
                                                                          double end) const {
   const double sensed = reach_of_pair(bodies(), a, b);
   BoundAt moved(bodies()[b].bound, time_);
-  if (bodies().space().repeats()) moved.centre += shift_to_meet(bodies(), a, b);
+  if (const Space& space = bodies().space(); space.repeats())
+    move_to_image(space, shift_to_meet(bodies(), a, b, time_), moved);
   const QuickReject pair(BoundAt(bodies()[a].bound, time_), moved);
   const double near = sensed + bodies().definition().contact_tolerance;
   if (pair.stay_apart(end - time_, near)) return infinity;
@@ -59,7 +60,8 @@ double PairCertifier::within_in_flight_until(std::uint32_t a, std::uint32_t b) c
   if (bodies().table().comes_before(b, a)) std::swap(a, b);
   const BoundAt one(bodies()[a].bound, time_);
   BoundAt other(bodies()[b].bound, time_);
-  if (bodies().space().repeats()) other.centre += shift_to_meet(bodies(), a, b);
+  if (const Space& space = bodies().space(); space.repeats())
+    move_to_image(space, shift_to_meet(bodies(), a, b, time_), other);
   const QuickReject pair(one, other);
   const bool recede = recede_for_good(State{one.centre, one.velocity}, State{other.centre, other.velocity});
   const double margin = rounding_margin(bodies().definition()), tolerance = contacts().rule().tolerance();
@@ -84,7 +86,7 @@ double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32
   const double end = earlier_own_time(a, b);
   double first = infinity;
   if (!bodies().may_meet(a, b)) return first;
-  visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& other) {
+  visit_pair(bodies(), a, b, time_, [&](const Bound& bound, const auto& other) {
     for_each_threshold(a, b, [&](const Threshold& threshold) {
       const ContactPredictor predictor(contacts().rule(), threshold, bound, other, time_, {end, end});
       first = std::min(first, predictor.until_reports());
@@ -118,8 +120,8 @@ double PairCertifier::walls_unchanged_until(std::uint32_t number) const {
   if (bodies().sensors.any() || wants_ends(bodies().wanted_of(a, b))) return false;
   const Bound& bound = bodies()[a].bound;
   Bound other = bodies()[b].bound;
-  if (bodies().space().repeats())
-    other.position += bodies().space().shift_to_nearest(other.centre_at(time_), bound.centre_at(time_));
+  if (const Space& space = bodies().space(); space.repeats())
+    space.move(other, space.shift_to_nearest(other.centre_at(time_), bound.centre_at(time_), time_), time_);
   return bodies().are_balls() && recede_for_good(bound, other, time_) &&
          !QuickReject(BoundAt(bound, time_), BoundAt(other, time_)).is_near(-contacts().rule().tolerance());
 }

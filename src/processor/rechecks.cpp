@@ -68,7 +68,7 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
   const double until = bodies().radii.any() ? note_rates(sum, {a, b}, end) : end;
   std::optional<double> next = infinity;
   Counters& work = counters_of(a);
-  visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
+  visit_pair(bodies(), a, b, time_, [&](const Bound& bound, const auto& partner) {
     certifier.for_each_threshold(a, b, [&](Threshold threshold) {
       ++work.certificates;
       if (threshold.is_turned) threshold.is_turned = !note_return(threshold, a, b);

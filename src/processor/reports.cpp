@@ -20,7 +20,18 @@ constexpr std::size_t few_reports = 2;
 
 /// Moves a report to the image that is nearest to where the bound expects its body.
 inline void move_to_nearest_image(const Space& space, const Bound& bound, double time, State& report) {
-  if (space.repeats()) report.position += space.shift_to_nearest(report.position, bound.centre_at(time));
+  if (space.repeats())
+    space.move(report, space.shift_to_nearest(report.position, bound.centre_at(time), time));
+}
+
+/// Notes how many rows of images a report has been moved.
+inline void note_rows(Bodies& bodies, std::uint32_t number, const State& report, const State& moved) {
+  if (bodies.space().slides()) bodies.rows[number] = bodies.space().rows_of(moved.position - report.position);
+}
+
+/// Returns the size (length / time) of what a velocity is computed from where images slide.
+double speed_of_terms(const Space& space, const Vec3& reported) {
+  return space.slides() ? norm(reported) + std::abs(space.slide_speed()) : 0.0;
 }
 
 std::optional<BoundViolation> sum_of(const std::optional<BoundViolation>& a,
@@ -57,7 +68,7 @@ Error no_rotation_probe(BodyId body, std::string_view call) {
 Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double time,
                                                           std::span<const std::uint32_t> numbers,
                                                           PoolLease& work) {
-  if (numbers.size() <= few_reports && profile_ == nullptr) {
+  if (numbers.size() <= few_reports && profile_ == nullptr && !bodies.space().slides()) {
     if (take_few(bodies, time, numbers)) return std::span<const Violation>();
   } else {
     ask_for(bodies, time, numbers, work);
@@ -79,12 +90,13 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
     const Body& body = bodies[numbers[k]];
     if (!is_valid_report(states_[k], bodies.definition()))
       return check_report(states_[k], ids_[k], time, bodies.definition(), call_).error();
+    const double terms = speed_of_terms(bodies.space(), states_[k].velocity);
     move_to_nearest_image(bodies.space(), body.bound, time, states_[k]);
     if (certainly_keeps(body.bound, time, states_[k], body.radius, bodies.definition().contact_tolerance))
       continue;
     Bound after = body.bound;
     restart(after, time, states_[k]);
-    if (bound_violation(body.bound, after, body.radius, {}, bodies.definition().contact_tolerance))
+    if (bound_violation(body.bound, after, body.radius, {}, bodies.definition().contact_tolerance, terms))
       broken.push_back(numbers[k]);
   }
   return broken;
@@ -92,7 +104,7 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
 
 /// Probes one or two bodies, as nearly all calls do. Applies the reports if they are valid, keep the limits
 /// of the bodies, and change nothing but their bounds and known rotations, as nearly all do. Otherwise keeps
-/// them, and returns false.
+/// them, and returns false. Precondition: images do not slide.
 [[gnu::always_inline]] inline bool Reports::take_few(Bodies& bodies, double time,
                                                      std::span<const std::uint32_t> numbers) {
   std::array<BodyId, few_reports> ids;
@@ -227,20 +239,22 @@ void Reports::apply_all(Bodies& bodies, double time, std::span<const std::uint32
 /// Applies a report that keeps the limits of the body, and at most gives the velocity that the caller has set
 /// just so. Returns false, and changes nothing, if that is not certain.
 [[gnu::always_inline]] inline bool Reports::apply_plain(Bodies& bodies, double time, std::uint32_t number,
-                                                        State state) const {
+                                                        const State& reported) const {
   Body& body = bodies[number];
   if (body.is_rigid || body.is_sleeping() || profile_ != nullptr || bodies.radii.find(number) != nullptr)
     return false;
   const double tolerance = bodies.definition().contact_tolerance;
+  State state = reported;
   move_to_nearest_image(bodies.space(), body.bound, time, state);
   if (const Change* const change = bodies.changes.find(body)) {
-    if (change->velocity != state.velocity || change->limits != bodies.bound_limits_of(number) ||
+    if (change->velocity != reported.velocity || change->limits != bodies.bound_limits_of(number) ||
         !certainly_stays(body.bound, time, state.position, body.radius, tolerance))
       return false;
   } else if (!certainly_keeps(body.bound, time, state, body.radius, tolerance)) {
     return false;
   }
   restart(body.bound, time, state);
+  note_rows(bodies, number, reported, state);
   return true;
 }
 
@@ -250,6 +264,7 @@ void Reports::apply(Bodies& bodies, double time, std::size_t k, std::vector<Viol
   Body& body = bodies[number];
   State state = states_[k];
   move_to_nearest_image(bodies.space(), body.bound, time, state);
+  note_rows(bodies, number, states_[k], state);
   const bool changes_size = bodies.radii.find(number) != nullptr;
   double velocity_error = bodies.velocity_error(number);
   const Bound before = changes_size ? centre_bound(body, velocity_error) : body.bound;
@@ -260,6 +275,7 @@ void Reports::apply(Bodies& bodies, double time, std::size_t k, std::vector<Viol
       bodies.definition().adopt_observed_limits && body.change_number == Body::none && !body.is_sleeping();
   if (const Change* change = bodies.changes.find(body)) {
     new_velocity = change->velocity;
+    if (new_velocity) *new_velocity = bodies.velocity_in_image(number, *new_velocity);
     velocity_error = change->limits.velocity_error;
     body.bound = bodies.changed_bound(number, state, time);
   } else {
@@ -273,12 +289,13 @@ void Reports::apply(Bodies& bodies, double time, std::size_t k, std::vector<Viol
   if (new_velocity || before.radius != after.radius ||
       !certainly_keeps(before, time, {after.position, after.velocity}, radius,
                        bodies.definition().contact_tolerance))
-    violation = sum_of(violation, bound_violation(before, after, radius, new_velocity,
-                                                  bodies.definition().contact_tolerance));
+    violation = sum_of(
+        violation, bound_violation(before, after, radius, new_velocity, bodies.definition().contact_tolerance,
+                                   speed_of_terms(bodies.space(), states_[k].velocity)));
   if (violation && adopts) adopt(bodies, body, before, after, radius);
   if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, after);
   if (body.is_sleeping()) body.stand_still();
-  if (violation) broken.push_back({k, states_[k].velocity, *violation, body.bound.acceleration_limit});
+  if (violation) broken.push_back({k, state.velocity, *violation, body.bound.acceleration_limit});
 }
 
 /// Raises the acceleration limit of a body whose report has broken it to what explains the report.

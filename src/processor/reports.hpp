@@ -21,7 +21,7 @@ class Reports {
   /// The k-th report violates the bound of its body.
   struct Violation {
     std::size_t k;
-    Vec3 velocity;  ///< as reported
+    Vec3 velocity;  ///< as reported, in the image of the bound
     BoundViolation limits;
     double acceleration_limit;  ///< of the body from now on
   };
@@ -59,7 +59,7 @@ class Reports {
   Result<void> check(const Bodies& bodies, double time, std::size_t k) const;
   void ask_rotations(const Bodies& bodies, double time);
   void apply_all(Bodies& bodies, double time, std::span<const std::uint32_t> numbers, PoolLease& lease);
-  bool apply_plain(Bodies& bodies, double time, std::uint32_t number, State state) const;
+  bool apply_plain(Bodies& bodies, double time, std::uint32_t number, const State& reported) const;
   void apply(Bodies& bodies, double time, std::size_t k, std::vector<Violation>& broken) const;
   static void adopt(const Bodies& bodies, Body& body, const Bound& before, const Bound& after, double radius);
   std::optional<BoundViolation> turn(RigidRecord& record, const Body& body, const Bound& before,

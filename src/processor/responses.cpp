@@ -10,13 +10,27 @@ namespace {
 
 /// Returns the position from which a motion goes on. In periodic space a position beyond half the coordinate
 /// limit of other axes is wrapped into the box, so that a long run loses no precision. Nearer ones stay as
-/// they are, with the same bits as in a shorter run.
-Vec3 origin_of(const Vec3& position, const WorldDefinition& world) {
+/// they are, with the same bits as in a shorter run. Where images slide, it stays in its row.
+Vec3 origin_of(const Vec3& position, const WorldDefinition& world, double time) {
   if (!world.periodic.any() || fits(position, 0.5 * coordinate_limit(world))) return position;
-  return Space(world).wrapped(position).position;
+  const Space space(world);
+  if (!space.slides()) return space.wrapped(position, time).position;
+  const Vec3 in_row = space.wrapped({position.x, world.box->lower.y, position.z}, time).position;
+  return {in_row.x, position.y, in_row.z};
 }
 
 }  // namespace
+
+void move_to_images_of(MotionSource& source, const Space& space, const Event& event, Response& answer) {
+  const auto move = [&](BodyId body, const State& seen, std::optional<Vec3>& velocity) {
+    if (!velocity) return;
+    State state = no_answer;
+    source.states(std::span(&body, 1), event.time, std::span(&state, 1));
+    *velocity = space.velocity_in_row(*velocity, seen.position, state.position);
+  };
+  move(event.first, event.first_state, answer.first_velocity);
+  move(event.second, event.second_state, answer.second_velocity);
+}
 
 Result<void> apply_response(MotionSource& source, const WorldDefinition& world, const Event& event,
                             const Response& answer) {
@@ -35,7 +49,8 @@ Result<void> apply_response(MotionSource& source, const WorldDefinition& world, 
   for (std::size_t k = 0; k < count; ++k)
     if (auto valid = check_report(states[k], ids[k], event.time, world, "run"); !valid) return valid;
   const auto set = [&](std::size_t k) {
-    source.set_origin(ids[k], {event.time, {origin_of(states[k].position, world), velocities[k]}});
+    const Vec3 place = origin_of(states[k].position, world, event.time);
+    source.set_origin(ids[k], {event.time, {place, velocities[k]}});
   };
   if (count == 1) {
     set(0);

@@ -7,6 +7,7 @@
 #include "kinesphere/result.hpp"
 #include "kinesphere/run.hpp"
 #include "kinesphere/world_definition.hpp"
+#include "space/space.hpp"
 
 namespace kinesphere {
 
@@ -24,6 +25,8 @@ inline std::array<BodyResponse, 2> parts_of(const Event& event, const Response& 
            {event.second, answer.second_velocity, answer.second_angular_velocity, answer.second_action}}};
 }
 
+/// Gives a response the velocities in the images in which the source has the bodies, where images slide.
+void move_to_images_of(MotionSource& source, const Space& space, const Event& event, Response& answer);
 /// Sets the origins of all bodies with new velocities, or of none if the source throws or returns a state
 /// that check_report() refuses. Errors: those of check_report().
 Result<void> apply_response(MotionSource& source, const WorldDefinition& world, const Event& event,

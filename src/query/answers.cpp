@@ -19,7 +19,7 @@ void for_each_image(const Space& space, Bound bound, Visit visit) {
   for (double x = -most(0); x <= most(0); ++x)
     for (double y = -most(1); y <= most(1); ++y)
       for (double z = -most(2); z <= most(2); ++z) {
-        bound.position = place + space.shift_of({x, y, z});
+        bound.position = place + space.shift_of({x, y, z}, bound.time);
         visit(bound);
       }
 }
@@ -117,7 +117,7 @@ double World::Engine::Answers::meeting(const CollisionShape& extent_of_a,
   const Bound& a = extent_of_a.bound;
   const Bound& b = extent_of_b.bound;
   Bound image = b;
-  image.position += space.shift_to_nearest(b.centre_at(now_), a.centre_at(now_));
+  image.position += space.shift_to_nearest(b.centre_at(now_), a.centre_at(now_), now_);
   const RelativeMotion motion(a, image, now_);
   // The loop below covers all images up to one period from the nearest one. Any other image is at least two
   // periods away on some axis, and cannot be met before the bounds have closed that distance.
@@ -204,7 +204,7 @@ Stretch World::Engine::Answers::way_of(std::uint32_t number, double horizon) con
   const BoundAt now(bound, now_);
   const Vec3 half_way = body(number).is_static() ? Vec3{} : 0.5 * (horizon - now_) * now.velocity;
   const double radius = body(number).is_static() ? bound.radius : now.radius_after(horizon - now_);
-  return {number, engine_.bodies().space().wrapped(now.centre + half_way).position, half_way, radius};
+  return {number, engine_.bodies().space().wrapped(now.centre + half_way, now_).position, half_way, radius};
 }
 
 /// Searches for pairs whose bounds may come to the same place before first.time. No other pair can lower it.
@@ -227,9 +227,10 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
     const Vec3 half = Vec3{std::abs(way.half_way.x), std::abs(way.half_way.y), std::abs(way.half_way.z)} +
                       Vec3{way.radius, way.radius, way.radius};
     // Two that meet beyond a border of the primary box do so in two of the images that reach into it.
-    space.for_each_image({way.middle - half, way.middle + half}, 0.0, [&](const Box&, const Vec3& shift) {
-      ways.push_back({number, way.middle + shift, way.half_way, way.radius});
-    });
+    space.for_each_image({way.middle - half, way.middle + half}, 0.0, now_,
+                         [&](const Box&, const Vec3& shift) {
+                           ways.push_back({number, way.middle + shift, way.half_way, way.radius});
+                         });
   }
   StretchGrid grid;
   grid.fill(ways);
@@ -250,7 +251,8 @@ bool World::Engine::Answers::is_shape_at_rest(std::uint32_t number) const {
 DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b, double time) const {
   const Bound first = present(a);
   Bound second = present(b);
-  second.position += engine_.bodies().space().shift_to_nearest(second.centre_at(time), first.centre_at(time));
+  const Space& space = engine_.bodies().space();
+  second.position += space.shift_to_nearest(second.centre_at(time), first.centre_at(time), time);
   const CollisionShape extent_of_a = shape_of(a, first);
   const CollisionShape extent_of_b = shape_of(b, second);
   // No certificate knows the distance of two shapes at rest.
@@ -264,7 +266,7 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
   };
   // Where the positions are nearest, the parts of rigid bodies need not be.
   if (extent_of_a.rigid || extent_of_b.rigid)
-    for_each_image(engine_.bodies().space(), second, look_at);
+    for_each_image(space, second, look_at);
   else
     look_at(second);
   // The upper limit applies to the bodies as reported. The true bodies may differ by the error parts of the

@@ -186,12 +186,14 @@ class World::Engine::Audit {
     if (!checkable(a, b, threshold) || engine_.claimed_until(a, b) <= now_) return;
     const CollisionShape first = collision_shape_of(engine_.bodies(), a);
     const CollisionShape second = collision_shape_of(engine_.bodies(), b);
+    const WorldDefinition& world = engine_.definition();
     const Vec3 period = engine_.bodies().space().period();
-    check_state(a, b, threshold, PlainGap(first, second, period));
+    check_state(a, b, threshold, PlainGap(first, second, period, world.shear_rate, world.start_time));
     const Bound one = threshold.within ? first.bound : shrinking_bound(a, first.bound);
     const Bound other = threshold.within ? second.bound : shrinking_bound(b, second.bound);
     const PlainGap gap({one, first.is_static, first.shape, first.carried_radius},
-                       {other, second.is_static, second.shape, second.carried_radius}, period);
+                       {other, second.is_static, second.shape, second.carried_radius}, period,
+                       world.shear_rate, world.start_time);
     const double end = engine_.claimed_until(a, b);
     if (!threshold.within && !boxes_overlap(a, b)) return;
     if (const auto change = certain_change(a, b, threshold, gap, end))
@@ -228,7 +230,8 @@ class World::Engine::Audit {
   }
 
   bool boxes_overlap(std::uint32_t a, std::uint32_t b) {
-    const Vec3 shift = engine_.bodies().space().repeats() ? shift_to_meet(engine_.bodies(), a, b) : Vec3{};
+    const Vec3 shift =
+        engine_.bodies().space().repeats() ? shift_to_meet(engine_.bodies(), a, b, now_) : Vec3{};
     const Box& one = box(a);
     const Box& other = box(b);
     for (int axis = 0; axis < 3; ++axis)
@@ -270,7 +273,7 @@ class World::Engine::Audit {
   }
 
   double earliest_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold, double level) const {
-    return visit_pair(engine_.bodies(), a, b, [&](const Bound& bound, const auto& partner) {
+    return visit_pair(engine_.bodies(), a, b, now_, [&](const Bound& bound, const auto& partner) {
       return threshold.within ? earliest_separation(bound, partner, now_, infinity, level)
                               : earliest_meeting(bound, partner, now_, infinity, level);
     });

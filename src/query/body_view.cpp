@@ -28,9 +28,12 @@ BodyView World::Engine::view(std::uint32_t number) const {
     view.box_end = box_end(number);
   }
   if (!space.repeats()) return view;
-  const auto [position, images] = space.wrapped(body.bound.position);
-  const Vec3 shift = space.shift_of(images);
+  const auto [position, images] = space.wrapped(body.bound.position, body.bound.time);
+  const Vec3 shift = space.shift_of(images, now);
   view.definition.position = view.bound.position = position;
+  if (space.slides())
+    for (Vec3* const velocity : {&view.bound.velocity, &view.definition.velocity})
+      *velocity -= space.velocity_of(shift);
   if (!body.has_shape()) view.shape = Ball{position, radius};
   if (view.rigid) view.rigid->body.position = position;
   view.box = {view.box.lower - shift, view.box.upper - shift};

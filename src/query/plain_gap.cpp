@@ -133,13 +133,16 @@ constexpr Long result_margin = 128 * std::numeric_limits<Long>::epsilon();
 
 }  // namespace
 
-PlainGap::PlainGap(const CollisionShape& a, const CollisionShape& b, const Vec3& period)
+PlainGap::PlainGap(const CollisionShape& a, const CollisionShape& b, const Vec3& period, double shear_rate,
+                   double start)
     : moving_(a.shape ? b.bound : a.bound),
       other_(a.shape ? a.bound : b.bound),
       shape_(a.shape ? a.shape : b.shape),
       is_carried_(a.is_carried() || b.is_carried()),
       shape_radius_(a.shape ? a.carried_radius : b.carried_radius),
-      period_(period) {}
+      period_(period),
+      shear_rate_(shear_rate),
+      start_(start) {}
 
 PlainGap::Limits PlainGap::distance(double time) const {
   const Point at = centre(moving_, time);
@@ -148,6 +151,8 @@ PlainGap::Limits PlainGap::distance(double time) const {
   Range range{};
   if (shape_ == nullptr) {
     Point way = centre(other_, time) - at;
+    if (shear_rate_ != 0.0)
+      way.x -= std::round(way.y / Long(period_.y)) * shear_rate_ * Long(period_.y) * (Long(time) - start_);
     if (period_.x > 0.0) way.x = std::remainder(way.x, Long(period_.x));
     if (period_.y > 0.0) way.y = std::remainder(way.y, Long(period_.y));
     if (period_.z > 0.0) way.z = std::remainder(way.z, Long(period_.z));
@@ -192,11 +197,14 @@ double PlainGap::largest_speed(double from, double to) const {
     return norm(bound.velocity_at(from)) + std::abs(bound.growth_speed) +
            (norm(bound.planned_acceleration) + bound.acceleration_limit) * (to - bound.time);
   };
-  return rate(moving_) + rate(other_);
+  // Images that two bodies with regions in the primary box have next to each other are one row apart.
+  return rate(moving_) + rate(other_) + std::abs(shear_rate_) * period_.y;
 }
 
 double PlainGap::uncertainty(double time) const {
-  return 0x1p-28 * static_cast<double>(size_of_way(moving_, time) + size_of_way(other_, time));
+  const Long slid = std::abs(Long(shear_rate_) * period_.y * (Long(time) - start_));
+  return 0x1p-28 * static_cast<double>(size_of_way(moving_, time) + size_of_way(other_, time)) +
+         0x1p-50 * static_cast<double>(slid);
 }
 
 }  // namespace kinesphere

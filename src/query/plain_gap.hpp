@@ -14,7 +14,9 @@ namespace kinesphere {
 class PlainGap {
  public:
   /// Precondition: at most one of the two has a shape. `period` is zero on axes that are not periodic.
-  PlainGap(const CollisionShape& a, const CollisionShape& b, const Vec3& period);
+  /// `shear_rate`, `start`: of images that slide (WorldDefinition::shear_rate), since that time.
+  PlainGap(const CollisionShape& a, const CollisionShape& b, const Vec3& period, double shear_rate = 0.0,
+           double start = 0.0);
 
   /// Interval that contains the exact value. Precondition of each query: the time is not before either
   /// report.
@@ -46,6 +48,7 @@ class PlainGap {
   bool is_carried_;
   double shape_radius_;  ///< part of the radius of other_ that stands for the shape
   Vec3 period_;
+  double shear_rate_, start_;
 };
 
 }  // namespace kinesphere

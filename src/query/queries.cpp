@@ -135,15 +135,24 @@ double World::Engine::Queries::finest_length() const {
   return std::clamp(engine_.core().median_reach(), tolerance, 0x1p30 * tolerance);
 }
 
-/// Returns the certain sphere of a body in the image nearest to `point`.
-CertainSphere World::Engine::Queries::certain_sphere(std::uint32_t number, const Vec3& point) const {
+/// Returns the certain sphere of a body in the image that is nearest to a region with this middle and height
+/// (length, on y), as distance_to(point) tells.
+CertainSphere World::Engine::Queries::certain_sphere(std::uint32_t number, const Vec3& middle, double height,
+                                                     auto distance_to) const {
   CertainSphere place = certain_sphere_of(engine_.bodies()[number], now_);
-  place.centre += engine_.bodies().space().shift_to_nearest(place.centre, point);
+  const Space& space = engine_.bodies().space();
+  Vec3 nearest = place.centre + space.shift_to_nearest(place.centre, middle, now_);
+  if (space.slides())
+    space.for_each_near_row(place.centre, middle, height, now_, [&](const Vec3& shift) {
+      const Vec3 image = place.centre + shift;
+      if (distance_to(image) < distance_to(nearest)) nearest = image;
+    });
+  place.centre = nearest;
   return place;
 }
 
 template <class Distance, class ShapeGap>
-void World::Engine::Queries::overlapping(const Box& box, Distance distance_to, ShapeGap gap_to,
+void World::Engine::Queries::overlapping(const Box& box, double height, Distance distance_to, ShapeGap gap_to,
                                          std::vector<OverlapHit>& found) const {
   const Vec3 middle = 0.5 * (box.lower + box.upper);
   const double size = norm_one(box.lower) + norm_one(box.upper);
@@ -157,7 +166,7 @@ void World::Engine::Queries::overlapping(const Box& box, Distance distance_to, S
           {engine_.bodies().id_of(number), gap.upper <= 0.0 ? Certainty::certainly : Certainty::possibly});
       continue;
     }
-    const CertainSphere at = certain_sphere(number, middle);
+    const CertainSphere at = certain_sphere(number, middle, height, distance_to);
     const double distance = distance_to(at.centre);
     const double wrong = part_lost * (size + norm_one(at.centre) + at.outer);
     if (distance - wrong > at.outer) continue;
@@ -169,14 +178,15 @@ void World::Engine::Queries::overlapping(const Box& box, Distance distance_to, S
 void World::Engine::Queries::overlapping(const Vec3& centre, double radius,
                                          std::vector<OverlapHit>& found) const {
   overlapping(
-      box_around(centre, centre, radius), [&](const Vec3& point) { return norm(point - centre) - radius; },
+      box_around(centre, centre, radius), 0.0,
+      [&](const Vec3& point) { return norm(point - centre) - radius; },
       [&](const CertainShape& shape) { return limits_of(centre, radius, shape); }, found);
 }
 
 void World::Engine::Queries::overlapping(const Box& region, std::vector<OverlapHit>& found) const {
   const Box box = engine_.bodies().space().within(region);
   overlapping(
-      box, [&](const Vec3& point) { return distance_to_box(point, box); },
+      box, box.upper.y - box.lower.y, [&](const Vec3& point) { return distance_to_box(point, box); },
       [&](const CertainShape& shape) { return limits_of(box, shape); }, found);
 }
 
@@ -188,7 +198,8 @@ void World::Engine::Queries::add_distances(const std::vector<std::uint32_t>& num
       all.push_back({engine_.bodies().id_of(number), Certainty::possibly, gap.lower, gap.upper});
       continue;
     }
-    const CertainSphere at = certain_sphere(number, point);
+    const CertainSphere at =
+        certain_sphere(number, point, 0.0, [&](const Vec3& centre) { return norm(centre - point); });
     const double distance = norm(at.centre - point);
     const double wrong = part_lost * (norm_one(point) + norm_one(at.centre) + at.outer);
     all.push_back({engine_.bodies().id_of(number), Certainty::possibly, distance - at.outer - wrong,

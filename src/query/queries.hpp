@@ -33,12 +33,13 @@ class World::Engine::Queries {
   /// Removes the bodies that the options leave out.
   void restrict(std::vector<std::uint32_t>& numbers) const;
   double finest_length() const;
-  CertainSphere certain_sphere(std::uint32_t number, const Vec3& point) const;
+  CertainSphere certain_sphere(std::uint32_t number, const Vec3& middle, double height,
+                               auto distance_to) const;
   /// Finds the bodies that overlap a region, certainly or possibly. `distance_to(centre)` is the distance
   /// of a point from the region, `gap_to(shape)` the gap limits of a CertainShape. `box` contains the
-  /// region.
+  /// region. `height`: on y (length), 0 of one of which the nearest point is its middle.
   template <class Distance, class ShapeGap>
-  void overlapping(const Box& box, Distance distance_to, ShapeGap gap_to,
+  void overlapping(const Box& box, double height, Distance distance_to, ShapeGap gap_to,
                    std::vector<OverlapHit>& found) const;
   std::optional<CastHit> hit(const SweptRay& ray, const Box& piece, std::uint32_t number) const;
   void add_around(const Vec3& point, std::size_t count, std::vector<NearestHit>& all) const;

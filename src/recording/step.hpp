@@ -25,7 +25,7 @@ namespace kinesphere {
 /// Raise the version when the serialized steps change. The snapshot's version covers changes of their effect
 /// on a world.
 inline constexpr Envelope recording_envelope{{'K', 'i', 'n', 'e', 'r', 'c', '\r', '\n'},
-                                             14,
+                                             15,
                                              "recording",
                                              "Replay::open",
                                              "recording",

@@ -20,22 +20,79 @@ Space::Space(const WorldDefinition& definition) : flat_(definition.dimensions ==
     per_period_[axis] = 1.0 / period_[axis];
     repeats_ = true;
   }
+  slide_speed_ = definition.shear_rate * period_.y;
+  slides_ = slide_speed_ != 0.0;
+  start_ = definition.start_time;
 }
 
-Space::Wrapped Space::wrapped_from_outside(const Vec3& point) const {
+Space::Wrapped Space::wrapped_from_outside(const Vec3& point, double time) const {
   Wrapped result{point, {}};
-  const Vec3 way = point - lower_;
-  for (int axis = 0; axis < 3; ++axis) {
+  const auto wrap = [&](int axis) {
     double& images = result.images[axis];
     double& position = result.position[axis];
-    if (!repeats(axis) || (lower_[axis] <= position && position < upper_[axis])) continue;
-    images = std::floor(way[axis] * per_period_[axis]);
-    position = point[axis] - images * period_[axis];
+    if (!repeats(axis) || (lower_[axis] <= position && position < upper_[axis])) return;
+    const double along = position;
+    images = std::floor((along - lower_[axis]) * per_period_[axis]);
+    position = along - images * period_[axis];
     // Rounding may have moved the position across the upper border.
     if (position >= upper_[axis]) ++images;
     if (!(lower_[axis] <= position && position < upper_[axis])) position = lower_[axis];
-  }
+  };
+  wrap(1);
+  const double rows = result.images.y;
+  if (slides() && rows != 0.0) result.position.x -= rows * slide_at(time);
+  wrap(0);
+  wrap(2);
+  if (slides() && rows != 0.0) result.images.x -= rows * turns_at(time);
   return result;
+}
+
+namespace {
+
+/// Factors of a product that is exact: it is `product` and `rest`, each rounded.
+struct ExactProduct {
+  double product, rest;
+
+  ExactProduct(double a, double b) : product(a * b) {
+    // Dekker's: of each factor, the upper half and the rest have products that are exact.
+    const auto upper = [](double value) {
+      const double scaled = 0x1.000002p27 * value;
+      return scaled - (scaled - value);
+    };
+    const double high_a = upper(a), low_a = a - high_a, high_b = upper(b), low_b = b - high_b;
+    rest = ((high_a * high_b - product) + high_a * low_b + low_a * high_b) + low_a * low_b;
+  }
+};
+
+}  // namespace
+
+double Space::slide_at(double time) const {
+  const ExactProduct way(slide_speed_, time - start_);
+  return std::remainder(way.product, period_.x) + way.rest;
+}
+
+/// Returns how many periods of x slide_at() leaves out.
+double Space::turns_at(double time) const {
+  const double way = slide_speed_ * (time - start_);
+  return std::round((way - std::remainder(way, period_.x)) * per_period_.x);
+}
+
+Vec3 Space::images_of(const Vec3& shift, double time) const {
+  Vec3 images;
+  for (int axis = 0; axis < 3; ++axis) images[axis] = std::round(shift[axis] * per_period_[axis]);
+  if (slides() && images.y != 0.0)
+    images.x = std::round((shift.x - images.y * slide_at(time)) * per_period_.x) - images.y * turns_at(time);
+  return images;
+}
+
+/// Returns the shift that shift_to_nearest() returns, where images slide.
+Vec3 Space::sliding_shift(const Vec3& from, const Vec3& to, double time) const {
+  const auto nearest = [&](int axis, double way) {
+    return std::floor(way * per_period_[axis] + 0.5) * period_[axis];
+  };
+  const double rows = std::floor((to.y - from.y) * per_period_.y + 0.5);
+  const double slid = rows != 0.0 ? rows * slide_at(time) : 0.0;
+  return {slid + nearest(0, to.x - from.x - slid), rows * period_.y, nearest(2, to.z - from.z)};
 }
 
 /// Returns the box shifted by `shift`, rounded outward.

@@ -95,6 +95,7 @@ Result<void> World::Preconditions::can_turn(BodyId body) const {
 
 Result<void> World::Preconditions::can_sleep(BodyId body) const {
   auto valid = can_turn(body);
+  if (valid) valid = check_no_shear(definition(), call_);
   if (!valid) return valid;
   if (engine_->bodies()[body.index].is_rigid)
     return error_about(ErrorCode::unsupported, body, "body must not be rigid, but " + text_of(body) + " is");

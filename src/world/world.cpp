@@ -324,7 +324,7 @@ Result<std::uint64_t> World::user_data(BodyId body) const {
 Result<std::optional<Event>> World::advance(double until, Probe probe) {
   auto valid = Preconditions(*this, "advance").may_advance();
   if (valid) valid = Preconditions(*this, "advance").may_ask(probe);
-  if (valid) valid = check_time(until, engine_->time());
+  if (valid) valid = check_time(until, engine_->time(), engine_->definition());
   if (!valid) return valid.error();
   if (undelivered_ && !undelivered_->empty()) return undelivered_->take();
   changeable().begin_call(until);

@@ -39,6 +39,7 @@ Result<Answer> World::Certificates::answer(std::string_view call, const Result<v
                                            std::size_t max_rounds, Ask ask) const {
   if (!valid) return valid.error();
   const Engine& engine = *facet_.world->engine_;
+  if (auto stands = check_no_shear(engine.definition(), call); !stands) return stands.error();
   ContactBoundary boundary = ask(Engine::Answers(engine));
   bool is_probed = false;
   for (std::size_t round = 0; round < max_rounds; ++round) {
@@ -102,6 +103,7 @@ Result<EarliestApproach> World::Certificates::earliest_approach(BodyId body, dou
 Result<DistanceLimits> World::Certificates::distance_limits(BodyId first, BodyId second, double time) const {
   const Preconditions check(*facet_.world, "distance_limits");
   auto valid = first_error(check.may_ask(facet_), check.pair(first, second));
+  if (valid) valid = check_no_shear(facet_.world->definition(), "distance_limits");
   if (valid) valid = check_not_past(time, facet_.world->time(), "distance_limits");
   if (!valid) return valid.error();
   const std::uint32_t both[] = {first.index, second.index};

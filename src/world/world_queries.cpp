@@ -30,6 +30,10 @@ Result<void> check_region(const Box& box, const WorldDefinition& world) {
   for (int axis = 0; axis < 3; ++axis)
     check.require(box.lower[axis] <= box.upper[axis], ErrorCode::out_of_range, {"box"},
                   "must have lower <= upper on each axis", box);
+  if (world.shear_rate != 0.0 && !check.error())
+    check.require(box.upper.y - box.lower.y <= world.box->upper.y - world.box->lower.y,
+                  ErrorCode::out_of_range, {"box"},
+                  "must be at most as high on y as the periodic box where images slide", box);
   return check.result();
 }
 
@@ -42,6 +46,7 @@ Result<void> check_point(const Vec3& point, const WorldDefinition& world, std::s
 
 Result<void> check_ray(const Vec3& origin, double radius, const Vec3& direction, double length,
                        const WorldDefinition& world, std::string_view call) {
+  if (auto valid = check_no_shear(world, call); !valid) return valid;
   InputCheck check(call);
   check.within({"origin"}, origin, coordinate_limit(world));
   require_length(check, "radius", radius, world)

@@ -53,7 +53,8 @@ class World::Run {
 
   /// Executes the run to its end, or to the first error.
   Result<void> go() {
-    if (auto valid = check_time(until_, world_.time()); !valid) return renamed(valid.error());
+    if (auto valid = check_time(until_, world_.time(), world_.definition()); !valid)
+      return renamed(valid.error());
     if (!lease_) {
       return Error{ErrorCode::workers_busy, "workers", no_body,
                    "run: workers must not be at work in another run, but are"};
@@ -105,8 +106,10 @@ class World::Run {
   bool may_ask_on_threads() const { return lease_.count() > 1 && world_.may_probe_on_threads(); }
 
   Result<void> answer_one(const Event& event) {
-    const auto checked = respond(event);
+    auto checked = respond(event);
     if (!checked) return checked.error();
+    if (const Space& space = world_.engine_->bodies().space(); space.slides())
+      move_to_images_of(*source_, space, event, *checked);
     if (auto turned = apply_response(*source_, world_.definition(), event, *checked); !turned) return turned;
     const auto parts = parts_of(event, *checked);
     for (const auto& [body, velocity, spin, action] : parts)

@@ -24,7 +24,7 @@ TEST(PeriodicImages, MovesPathsToThePrimaryBoxAndCounts) {
     Vec3 stored = 50.0 * random.point_in_ball();
     Vec3 on_path = stored;
     for (int step = 0; step < 4; ++step) {
-      stored -= image.wrap(space, stored);
+      stored -= image.wrap(space, stored, 0.0);
       ASSERT_TRUE(image.is_valid(space));
       for (int axis = 0; axis < 3; ++axis) {
         ASSERT_NEAR(stored[axis], image.middle[axis], 1e-12);

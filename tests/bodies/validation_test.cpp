@@ -100,10 +100,10 @@ TEST(Validation, OfReportsAgreesWithItsQuickForm) {
 }
 
 TEST(Validation, OfTimesAndLengths) {
-  EXPECT_TRUE(check_time(3.0, 3.0));
-  expect_error(check_time(2.0, 3.0), ErrorCode::time_backwards, "until", "advance: ");
-  expect_error(check_time(1e31, 3.0), ErrorCode::out_of_range, "until", "advance: ");
-  expect_error(check_time(nan, 3.0), ErrorCode::not_finite, "until", "advance: ");
+  EXPECT_TRUE(check_time(3.0, 3.0, {}));
+  expect_error(check_time(2.0, 3.0, {}), ErrorCode::time_backwards, "until", "advance: ");
+  expect_error(check_time(1e31, 3.0, {}), ErrorCode::out_of_range, "until", "advance: ");
+  expect_error(check_time(nan, 3.0, {}), ErrorCode::not_finite, "until", "advance: ");
   InputCheck check("near");
   EXPECT_TRUE(require_length(check, "distance", 1.0, space).result());
   EXPECT_FALSE(require_length(check, "distance", -1.0, space).result());

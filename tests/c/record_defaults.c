@@ -30,6 +30,7 @@ static void world_definition(void) {
   CHECK(made.wall_filter.group == 0);
   CHECK(made.adopt_observed_limits == 1);
   CHECK(made.reserved == 0);
+  CHECK(made.shear_rate == 0);
 }
 
 static void body_definition(void) {

@@ -15,7 +15,7 @@ HAS_SIZE(ks_shape, 88);
 HAS_SIZE(ks_mesh, 8);
 HAS_SIZE(ks_world, 8);
 HAS_SIZE(ks_filter, 24);
-HAS_SIZE(ks_world_definition, 144);
+HAS_SIZE(ks_world_definition, 152);
 HAS_SIZE(ks_body_definition, 160);
 HAS_SIZE(ks_static_definition, 136);
 HAS_SIZE(ks_quaternion, 32);

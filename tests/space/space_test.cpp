@@ -21,9 +21,9 @@ TEST(Space, WithoutPeriodsPointsStayWhereTheyAre) {
   const Space space;
   EXPECT_FALSE(space.repeats());
   const Vec3 far{1e300, -1e300, 5};
-  EXPECT_EQ(space.shift_to_nearest(far, -far), Vec3{});
-  EXPECT_EQ(space.wrapped(far).position, far);
-  EXPECT_EQ(space.wrapped(far).images, Vec3{});
+  EXPECT_EQ(space.shift_to_nearest(far, -far, 0.0), Vec3{});
+  EXPECT_EQ(space.wrapped(far, 0.0).position, far);
+  EXPECT_EQ(space.wrapped(far, 0.0).images, Vec3{});
   EXPECT_TRUE(space.is_narrow({-far, far}));
 }
 
@@ -36,14 +36,14 @@ TEST(Space, WrapsIntoTheBoxAlsoWhereRoundingWouldNot) {
                            {std::nextafter(1.0, 0.0), 1e6, 99}};
   for (int k = 0; k < 1000; ++k) points.push_back(1000.0 * random.point_in_ball());
   for (const Vec3& point : points) {
-    const auto [position, images] = space.wrapped(point);
+    const auto [position, images] = space.wrapped(point, 0.0);
     for (int axis = 0; axis < 2; ++axis) {
       EXPECT_GE(position[axis], box.lower[axis]);
       EXPECT_LT(position[axis], box.upper[axis]);
       EXPECT_EQ(images[axis], std::floor(images[axis]));
     }
     EXPECT_EQ(position.z, point.z);
-    EXPECT_NEAR(norm(position + space.shift_of(images) - point), 0.0, 1e-9);
+    EXPECT_NEAR(norm(position + space.shift_of(images, 0.0) - point), 0.0, 1e-9);
   }
 }
 
@@ -53,7 +53,7 @@ TEST(Space, TheNearestImageIsWithinHalfAPeriod) {
   for (int k = 0; k < 1000; ++k) {
     const Vec3 from = 50.0 * random.point_in_ball();
     const Vec3 to = 50.0 * random.point_in_ball();
-    const Vec3 shift = space.shift_to_nearest(from, to);
+    const Vec3 shift = space.shift_to_nearest(from, to, 0.0);
     EXPECT_EQ(shift.y, 0.0);
     EXPECT_LE(std::abs(from.x + shift.x - to.x), 2.0 + 1e-9);
     EXPECT_LE(std::abs(from.z + shift.z - to.z), 1.0 + 1e-9);
@@ -96,7 +96,8 @@ TEST(Space, ASearchFindsEachBoxOnceInWhicheverImage) {
     double largest_extent = 0.0;
     for (std::uint32_t k = 0; k < 200; ++k) {
       boxes.push_back(box_of(k % 10 == 0 ? 1.0 : 0.1));
-      const Vec3 shift = space.shift_of(space.wrapped(0.5 * (boxes[k].lower + boxes[k].upper)).images);
+      const Vec3 shift =
+          space.shift_of(space.wrapped(0.5 * (boxes[k].lower + boxes[k].upper), 0.0).images, 0.0);
       const Box image{boxes[k].lower - shift, boxes[k].upper - shift};
       for (int axis = 0; axis < 3; ++axis) {
         if (!periodic[axis]) continue;
@@ -114,7 +115,7 @@ TEST(Space, ASearchFindsEachBoxOnceInWhicheverImage) {
       const bool wide = query % 4 == 0;
       const Box asked = box_of(wide ? 8.0 : 1.0);
       std::vector<std::uint32_t> found;
-      space.for_each_image(asked, largest_extent, [&](const Box& image, const Vec3&) {
+      space.for_each_image(asked, largest_extent, 0.0, [&](const Box& image, const Vec3&) {
         for (std::uint32_t k = 0; k < images.size(); ++k)
           if (overlap(image, images[k])) found.push_back(k);
       });
@@ -145,9 +146,9 @@ TEST(Space, ASearchFarAwayOrWithoutEndComesToAnEnd) {
   for (const double far : {1e6, 1e17, 1e100}) {
     std::size_t found = 0;
     const auto look = [&](const Box& repeated, const Vec3&) { found += overlap(repeated, image) ? 1 : 0; };
-    space.for_each_image({{-far, -far, -far}, {far, far, far}}, 0.5, look);
+    space.for_each_image({{-far, -far, -far}, {far, far, far}}, 0.5, 0.0, look);
     EXPECT_EQ(found, 1u);
-    space.for_each_image({{far, far, far}, {far, far, far}}, 0.5, look);
+    space.for_each_image({{far, far, far}, {far, far, far}}, 0.5, 0.0, look);
   }
 }
 

@@ -441,7 +441,7 @@ TEST(BadRecording, SaysWhatIsWrong) {
   EXPECT_EQ(World::restore(bytes).error().code, ErrorCode::bad_snapshot);
   Bytes newer = bytes;
   newer[8] = std::byte{200};
-  EXPECT_TRUE(is_refused(newer, "format version 14, but is of version 200"));
+  EXPECT_TRUE(is_refused(newer, "format version 15, but is of version 200"));
   Bytes more = bytes;
   more.push_back(std::byte{0});
   EXPECT_TRUE(is_refused(more, "whole"));

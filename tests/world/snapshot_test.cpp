@@ -352,7 +352,7 @@ TEST(BadSnapshot, SaysWhatIsWrong) {
   EXPECT_TRUE(is_refused(Bytes(1000, std::byte{'x'}), "mark of a world"));
   Bytes newer = bytes;
   newer[8] = std::byte{200};
-  EXPECT_TRUE(is_refused(newer, "format version 34, but is of version 200"));
+  EXPECT_TRUE(is_refused(newer, "format version 35, but is of version 200"));
   Bytes damaged = bytes;
   damaged[bytes.size() / 2] ^= std::byte{1};
   EXPECT_TRUE(is_refused(damaged, "checksum"));

@@ -40,6 +40,8 @@ Result<void> check_gravity(std::string_view call, const WorldDefinition& world, 
       .within({"gravity"}, gravity, limits::largest_acceleration)
       .require(world.dimensions == 3 || gravity.z == 0.0, ErrorCode::out_of_range, {"gravity"},
                "must have z = 0 in two dimensions", gravity)
+      .require(world.shear_rate == 0.0, ErrorCode::unsupported, {"shear_rate"}, "must be 0 in a game",
+               world.shear_rate)
       .result();
 }
 
@@ -404,7 +406,8 @@ Result<GameWorld> GameWorld::restore(std::span<const std::byte> snapshot, GameRe
     return game_envelope.refusal("must hold a game, but its content does not have the form of one");
   auto world = World::restore(bytes, std::move(pair_filter));
   if (!world) return world.error();
-  const bool known = bodies.complete(world->definition(), world->time());
+  const bool known =
+      bodies.complete(world->definition(), world->time()) && world->definition().shear_rate == 0.0;
   (void)bodies.positions(world->time());
   auto game = std::make_unique<Game>(std::move(*world), std::move(bodies), std::move(response));
   if (!known || !game->is_valid())

@@ -374,9 +374,9 @@ export function busyBodyOf(from: Place): BusyFields {
 }
 
 /** @internal Size of a ks_world_definition, and offsets of its fields, in bytes. */
-export const worldAt = { size: 144, dimensions: 4, hasBox: 8, periodic: 12, box: 16, contactTolerance: 64,
+export const worldAt = { size: 152, dimensions: 4, hasBox: 8, periodic: 12, box: 16, contactTolerance: 64,
   separationDistance: 72, zenoInterval: 80, startTime: 88, contacts: 96, allowOverlap: 100, spreadWindowStarts: 104,
-  hasWallFilter: 108, wallFilter: 112, adoptObservedLimits: 136 } as const;
+  hasWallFilter: 108, wallFilter: 112, adoptObservedLimits: 136, shearRate: 144 } as const;
 
 /** Fields and ranges: kinesphere/world_definition.hpp. */
 export interface WorldFields {
@@ -403,11 +403,16 @@ export interface WorldFields {
    * the report.
    */
   adoptObservedLimits?: boolean;
+  /**
+   * (1 / time): the images of bodies across y slide along x, so that a flow goes on through the borders. x and y
+   * repeat then, and all bodies are balls.
+   */
+  shearRate?: number;
 }
 /** @internal */
 export const worldFieldKeys: Keys<WorldFields> = { dimensions: "number", periodic: true, contactTolerance: "number",
   separationDistance: "number", zenoInterval: "number", startTime: "number", contacts: true, allowOverlap: "boolean",
-  spreadWindowStarts: "boolean", adoptObservedLimits: "boolean" };
+  spreadWindowStarts: "boolean", adoptObservedLimits: "boolean", shearRate: "number" };
 /** @internal Writes a record of zeros; what is not given has its default. */
 export function putWorldFields(to: Memory, at: number, given: WorldFields, call: string): void {
   to.putWord(at + 4, given.dimensions ?? 3);
@@ -420,6 +425,7 @@ export function putWorldFields(to: Memory, at: number, given: WorldFields, call:
   to.putWord(at + 100, given.allowOverlap === false ? 0 : 1);
   to.putWord(at + 104, given.spreadWindowStarts ? 1 : 0);
   to.putWord(at + 136, given.adoptObservedLimits === false ? 0 : 1);
+  to.putNumber(at + 144, given.shearRate ?? 0);
 }
 
 /** @internal */
@@ -435,6 +441,7 @@ export function worldFieldsOf(from: Place): Required<WorldFields> {
     allowOverlap: from.word(100) !== 0,
     spreadWindowStarts: from.word(104) !== 0,
     adoptObservedLimits: from.word(136) !== 0,
+    shearRate: from.number(144),
   };
 }
 
