@@ -30,7 +30,7 @@ struct TaskSystem {
 
 /// Serves one run() at a time, of any world; another run() that starts meanwhile fails with workers_busy, and
 /// calls of a world that uses them (World::use_workers()) do without them. Idle threads yield a hundred times
-/// while they look for work, and then sleep.
+/// while they look for work, and then sleep. Those that save no time, as on a busy machine, rest for a while.
 class Workers {
  public:
   class Pool;  ///< of the library

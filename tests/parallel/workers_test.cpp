@@ -128,6 +128,32 @@ TEST(Workers, LeaveTheRestToOthersWhileOneIsSlow) {
   EXPECT_EQ(left, 0);
 }
 
+/// After the first 32 sets of items it is judged whether the others save time.
+TEST(Workers, RestIfTheCallerOnlyWaitsForThem) {
+  const auto shared_sets = [](auto work) {
+    Workers workers = Workers::create(2).value();
+    PoolLease lease(&workers);
+    std::vector<int> sets;
+    for (int set = 0; set < 64; ++set) {
+      std::atomic<int> by_others = 0;
+      lease.parallel_for(6, 1, [&](std::size_t, std::size_t, std::size_t worker) {
+        work(worker);
+        by_others += static_cast<int>(worker > 0);
+      });
+      if (by_others > 0) sets.push_back(set);
+    }
+    return sets;
+  };
+  using namespace std::chrono_literals;
+  const auto slow_others = shared_sets([](std::size_t worker) {
+    if (worker > 0) std::this_thread::sleep_for(2ms);
+  });
+  for (const int set : slow_others) EXPECT_LT(set, 32);
+  const auto equal = shared_sets([](std::size_t) { std::this_thread::sleep_for(1ms); });
+  ASSERT_FALSE(equal.empty());
+  EXPECT_GE(equal.back(), 32);
+}
+
 TEST(Workers, PassOnWhatTheFirstItemThrew) {
   LateTasks tasks;
   Workers own = Workers::create(4).value(), by_tasks = Workers::create(tasks.system(4)).value();
