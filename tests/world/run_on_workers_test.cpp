@@ -280,6 +280,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Steered{.world = {.box = room}, .acceleration_limit = 2.0, .sensors = true},
                     Steered{.world = {.box = room, .periodic = {true, true, true}},
                             .acceleration_limit = 2.0},
+                    Steered{.world = {.box = room, .periodic = {true, true, true}, .shear_rate = 0.5}},
                     Steered{.world = {.box = room}, .shapes = true, .radii = true, .filters = true},
                     Steered{.sensors = true, .irregular = true}));
 
