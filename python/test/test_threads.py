@@ -60,7 +60,7 @@ def steer(threads: int | ks.Workers | None) -> list[object]:
     world = ks.World()
     if threads is not None:
         world.use_threads(threads)
-    ids = world.add(0.4, positions)
+    ids = world.add(positions, radii=0.4)
     told: list[object] = []
     for frame in range(1, 5):
         velocities = random.uniform(-5.0, 5.0, (bodies, 3))
