@@ -35,6 +35,7 @@
 // (J. Comp. Phys. 94, 1991). Bounds and their certificates are the paper's.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -54,6 +55,7 @@
 #include "core/stay_counts.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/world_definition.hpp"
+#include "number/infinity.hpp"
 #include "parallel/thread_pool.hpp"
 #include "space/space.hpp"
 
@@ -289,6 +291,7 @@ class Core {
   double next_radius(std::uint32_t number);
   double near_now(std::uint32_t number) const;
   double widest_region(const Ball& ball) const;
+  [[gnu::cold]] double widest_on_x(const Ball& ball) const;
   float reach(const Ball& ball) const;
   Vec3 region_centre(const Ball& ball) const;
 
@@ -320,6 +323,9 @@ class Core {
   double stays(std::uint32_t number) const;
   double stays_inside(std::uint32_t number) const;
   double keeps_image(std::uint32_t number) const;
+  double searched_for(std::uint32_t number) const {
+    return space_.slides() ? std::max(search_ends_[number] - balls_.time(), 0.0) : infinity;
+  }
   double clear_of_walls(std::uint32_t number, Host& host) const;
   double clear_of_wall(std::uint32_t number, const HalfSpace& inside) const;
 

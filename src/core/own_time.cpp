@@ -64,11 +64,11 @@ double Core::clear_of_walls(std::uint32_t number, Host& host) const {
 /// which its last search holds in images that slide.
 double Core::keeps_image(std::uint32_t number) const {
   const Ball& ball = balls_[number];
-  double time = space_.slides() ? std::max(search_ends_[number] - balls_.time(), 0.0) : infinity;
   const double widest = widest_region(ball);
-  if (!(double{ball.region} * unit_ > widest) || ball.is(Ball::passive)) return time;
+  if (!(double{ball.region} * unit_ > widest) || ball.is(Ball::passive)) return searched_for(number);
   const Vec3 way = balls_.position(number) - region_centre(ball), velocity = balls_.velocity(number);
   const double limit = ball.acceleration_limit + norm_one(balls_.plan(number));
+  double time = searched_for(number);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(balls_.periods().length[axis] > 0.0)) continue;
     const double room = widest - margin_ - balls_.growth(number) - std::abs(way[axis]);

@@ -57,10 +57,15 @@ double Core::widest_region(const Ball& ball) const {
     // space/space.hpp holds.
     const double room = std::max(0.25 * period - 3.0 * ball.radius - tolerance_, 0.0625 * period);
     if (period > 0.0) widest = std::min(widest, 0.33 * room);
-    if (period > 0.0 && axis == 0 && space_.slides()) [[unlikely]]
-      widest -= 0.17 * Space::most_slide * period;
   }
-  return widest;
+  return space_.slides() ? std::min(widest, widest_on_x(ball)) : widest;
+}
+
+/// Returns the same on x where images slide: so much farther the images of two balls may come.
+double Core::widest_on_x(const Ball& ball) const {
+  const double period = balls_.periods().length.x;
+  const double room = std::max(0.25 * period - 3.0 * ball.radius - tolerance_, 0.0625 * period);
+  return 0.33 * room - 0.17 * Space::most_slide * period;
 }
 
 /// A ball may leave its safe region: it reports if that helps, and gets another one.
