@@ -16,10 +16,11 @@ void World::WorldEditor::reserve(std::size_t bodies) {
 BodyId World::WorldEditor::insert(const BodyDefinition& definition, auto give_form) {
   const std::uint32_t number = state_.bodies.add(definition, time());
   give_form(number);
+  // Its extent in the core depends on what all sense, with itself.
+  note_common_reach(sensor_reach(bodies(), number));
   insert_at(number, bound_now(definition, time()));
   state_.contacts.add(number, bodies().largest_acceleration(number));
   if (bodies()[number].has_shape()) state_.contacts.set_shape(number, bodies()[number].is_static());
-  note_common_reach(sensor_reach(bodies(), number));
   return bodies().id_of(number);
 }
 

@@ -189,6 +189,18 @@ TEST(SnapshotOfAWorld, KeepsAKickThatNoReportHasShownYet) {
 }
 
 /// Their first windows would take them farther than the computation is exact.
+TEST(SnapshotOfAWorld, MayHoldOneThatSensesNobodyBesideOneThatDoes) {
+  World world = World::create({.allow_overlap = false}).value();
+  world.set_sensor(1, {.distances = {1.0}}).value();
+  world.add({.radius = 0.1, .sensor_class = 1}).value();
+  world.add({.radius = 0.1, .position = {5, 0, 0}}).value();
+  const auto restored = World::restore(world.save().value());
+  EXPECT_TRUE(restored) << restored.error().message;
+  const auto added = world.add({.radius = 0.1, .position = {5.15, 0, 0}});
+  ASSERT_FALSE(added);
+  EXPECT_EQ(added.error().code, ErrorCode::overlapping);
+}
+
 TEST(SnapshotOfAWorld, MayHoldBodiesThatAreVeryFarFromEachOther) {
   for (const double distance : {1e4, 1e5, 1e6, 2e6}) {
     Playground p;
