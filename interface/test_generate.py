@@ -96,7 +96,7 @@ class Generated(unittest.TestCase):
 
     def test_a_field_of_a_definition_and_its_default_reach_all_languages(self) -> None:
         self.change(
-            r"(int32_t reserved;  ///< 0\n)(} ks_world_def)",
+            r"(double shear_rate;\n)(} ks_world_def)",
             r"\1  double heat;  ///< >= 0, default 0.5: a trial.\n\2",
         )
         self.assertEqual(

@@ -297,7 +297,7 @@ def heap():
     drawing, lefts = frame(
         "220 grains come to rest",
         "Grains fall into a box, lose energy at each contact, and come to rest in a heap without overlap.",
-        ("after 0.6 s", "after 4 s"),
+        ("after 0.6 s", "after 2.5 s"),
     )
     radii = np.random.default_rng(4).uniform(0.22, 0.36, count)
     starts = np.array([(0.45 + 0.9 * (k % 11), 0.5 + 0.85 * (k // 11)) for k in range(count)])
@@ -310,7 +310,7 @@ def heap():
     )
     grains.add(starts, random_velocities(count, 0.5, 9), radii)
     scale = SIDE / tall
-    for left, time in zip(lefts, (0.6, 4.0), strict=True):
+    for left, time in zip(lefts, (0.6, 2.5), strict=True):
         grains.step(time - grains.time)
         right = left + (SIDE - scale * width) / 2
         floor = TOP - 12 + SIDE - 2
@@ -322,7 +322,7 @@ def heap():
 
 def piston():
     """A plate that pushes a gas of discs together, and the energy of the gas against its area."""
-    count, side, radius, speed = 250, 10.0, 0.03, 0.004
+    count, side, radius, speed = 250, 10.0, 0.03, 0.01
     drawing, lefts = frame(
         "A piston compresses 250 discs",
         "Slowly compressed to half its area, the gas has twice its temperature, as an adiabatic change says.",

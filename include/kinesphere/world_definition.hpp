@@ -40,7 +40,7 @@ struct WorldDefinition {
   /// besides its n L_y, and n shear_rate L_y faster, where L_y is the period of y. So a flow x' = shear_rate
   /// y goes on through the borders. x and y have to be periodic; z may have any borders. All bodies are
   /// balls, and none sleeps. A state from the caller may be in any image: its velocity is that of the image
-  /// in which its position lies (docs/fluids.md#shear). Not for a GameWorld or a DistributedWorld. The world
+  /// in which its position lies (docs/fluids.md). Not for a GameWorld or a DistributedWorld. The world
   /// advances to times of at most 1.4e13 times that in which the next image slides by the box. Cost: a ball
   /// near a border across y is searched for whenever images have slid by about its size.
   double shear_rate = 0.0;
