@@ -51,7 +51,7 @@ class Orbit {
 }  // namespace
 
 int main() {
-  const int count = 500, orbits = 100;
+  const int count = 500, orbits = 50;
   const double a = 1.3, e = 0.4, i = 0.3, radius = 0.05;
   std::vector<Orbit> all{{1, 0, 0, 0, 0, 0}};
   Random random(1);

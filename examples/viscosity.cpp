@@ -88,7 +88,7 @@ struct Flow {
 int main() {
   const struct {
     double filled, rate, duration, least, most;
-  } fluids[] = {{0.1, 0.2, 300, 0.95, 1.05}, {0.3, 0.2, 150, 0.95, 1.05}, {0.5, 0.1, 50, 1.7, 2.5}};
+  } fluids[] = {{0.1, 0.2, 150, 0.95, 1.05}, {0.3, 0.2, 100, 0.95, 1.05}, {0.5, 0.1, 30, 1.7, 2.5}};
   bool agrees = true;
   for (const auto& [filled, rate, duration, least, most] : fluids) {
     Flow flow(filled, rate);
