@@ -128,6 +128,17 @@ TEST(Core, FindsTheImpactsThatBruteForceFinds) {
                            40);
 }
 
+TEST(Balls, AreDueNoLaterThanTheyMayLeaveTheirSafeRegions) {
+  core::Balls balls(core::Periods{}, 0.0);
+  balls.grow(1);
+  balls[0].set(core::Ball::present, true);
+  balls[0].due = 0.5;
+  balls[0].second = balls[0].own = 1.0;
+  EXPECT_TRUE(balls.is_valid(0));
+  balls[0].second = 2.0;
+  EXPECT_FALSE(balls.is_valid(0));
+}
+
 TEST(Core, FindsTheImpactsOfADenseGas) {
   expect_as_by_brute_force(periodic(), {.count = 300, .least_radius = 0.5, .largest_radius = 0.5}, 0.5, 100);
 }
