@@ -24,12 +24,17 @@ def frame(title, about, captions):
     return drawing, lefts
 
 
+def panel(left, side):
+    """Where a place of a plane as wide as `side` is in a square panel."""
+    scale = SIDE / side
+    return lambda place: (left + scale * place[0], TOP - 12 + SIDE - scale * place[1])
+
+
 def discs(drawing, left, centres, side, inks):
     """Discs of diameter 1 in a square panel that repeats; inks[k] is the class of a disc."""
-    scale = SIDE / side
-    at = lambda place: (left + scale * (place[0] % side), TOP - 12 + SIDE - scale * (place[1] % side))
+    scale, at = SIDE / side, panel(left, side)
     for ink in sorted(set(inks)):
-        places = [at(place) for place, each in zip(centres, inks, strict=True) if each == ink]
+        places = [at(place % side) for place, each in zip(centres, inks, strict=True) if each == ink]
         drawing.dots(places, RADIUS * scale, ink)
 
 
@@ -197,9 +202,8 @@ def atmosphere():
         for height in heights[heights < layers * width]:
             inside[int(height / width)] += 1 / moments
         kinetic += math.fsum((air.velocities**2).ravel()) / (2 * count * moments)
-    scale = SIDE / side
-    places = [(lefts[0] + scale * x, TOP - 12 + SIDE - scale * y) for x, y, _ in air.positions if y < side]
-    drawing.dots(places, 2.2, "body")
+    at = panel(lefts[0], side)
+    drawing.dots([at(place) for place in air.positions if place[1] < side], 2.2, "body")
     chart = Chart(drawing, lefts[1], (0, 6), (0, 120), "discs in a layer of 0.5", ((1, 3, 5), (50, 100)))
     heights = (np.arange(layers) + 0.5) * width
     factor = np.array([math.exp(-k * width / kinetic) for k in range(layers + 1)])
@@ -236,7 +240,7 @@ def packing():
             scale = SIDE / side
             radius = scale * size() * (1.0 if ink == "body" else 1.4)
             places = motion.states(world.time)[0][which, :2] % side
-            drawing.dots([(left + scale * x, TOP - 12 + SIDE - scale * y) for x, y in places], radius, ink)
+            drawing.dots([panel(left, side)(place) for place in places], radius, ink)
 
     show(lefts[0])
     time, begun = 0.0, size()
@@ -283,9 +287,8 @@ def flock():
             heading = unit(unit(means) + noise * noises)
             motion.set_velocity(np.arange(count), world.time, speed * heading)
             world.set_velocity(ids, speed * heading)
-        scale = SIDE / side
         places = motion.states(world.time)[0][:, :2] % side
-        heads = [(left + scale * x, TOP - 12 + SIDE - scale * y) for x, y in places]
+        heads = [panel(left, side)(place) for place in places]
         drawing.tails(heads, [(-9 * u, 9 * v) for u, v in heading], "body")
         drawing.dots(heads, 2.4, "probe")
     return drawing

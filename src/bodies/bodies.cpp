@@ -133,11 +133,6 @@ void Bodies::slide_to_image(std::uint32_t number, const Vec3& shift, double now)
   rows[number] += space_.rows_of(shift);
 }
 
-void Bodies::turn_in_image(std::uint32_t number, const Vec3& velocity, double now) {
-  Bound& bound = table_[number].bound;
-  if (bound.time == now) bound.velocity = velocity_in_image(number, velocity);
-}
-
 Vec3 Bodies::sliding_velocity(std::uint32_t number, const Vec3& velocity) const {
   return velocity + Vec3{rows[number] * space_.slide_speed(), 0.0, 0.0};
 }

@@ -169,8 +169,6 @@ class Bodies {
     bound.position += shift;
     if (space_.slides()) slide_to_image(number, shift, now);
   }
-  /// A body with a report of now has a velocity that the caller gives with it. Requires images that slide.
-  [[gnu::cold]] void turn_in_image(std::uint32_t number, const Vec3& velocity, double now);
   /// Returns a velocity of the body that the caller gives with a position of now, in the image of its bound.
   Vec3 velocity_in_image(std::uint32_t number, const Vec3& velocity) const {
     return space_.slides() ? sliding_velocity(number, velocity) : velocity;

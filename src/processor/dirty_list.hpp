@@ -41,12 +41,13 @@ class DirtyList {
     body.turned = turns_alone;
   }
   /// Makes room for so many bodies at once. Returns the place of the first. put_turned() has to follow for
-  /// each. Threads may call it for different bodies.
+  /// each.
   std::size_t extend(std::size_t more) {
     numbers_.resize(numbers_.size() + more);
     return numbers_.size() - more;
   }
-  /// Lists a clean body as add() does, of which the velocity changes alone.
+  /// Lists a clean body as add() does, of which the velocity changes alone. Threads may call it for different
+  /// bodies and places.
   void put_turned(Body& body, std::uint32_t number, std::size_t place) {
     numbers_[place] = number;
     body.dirty = body.turned = true;

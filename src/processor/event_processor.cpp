@@ -160,9 +160,7 @@ Result<SpotChecks::Census> EventProcessor::spot_check_due(std::span<const std::u
   if (body.is_sleeping()) Sleeping(*state_, *this).wake(number);
   if (!body.fresh(time_)) bodies().change_of(number).velocity = velocity;
   // A body with a report of now moves on with it at once, also if it awaits another report, having slept.
-  if (body.bound.time == time_) body.bound.velocity = velocity;
-  if (bodies().space().slides()) [[unlikely]]
-    bodies().turn_in_image(number, velocity, time_);
+  if (body.bound.time == time_) body.bound.velocity = bodies().velocity_in_image(number, velocity);
   turn_reported(number, true);
 }
 
@@ -178,7 +176,7 @@ void EventProcessor::set_velocities(std::span<const BodyId> ids, std::span<const
     bool is_regular = true;
   };
   std::vector<Part> parts((ids.size() + least_part - 1) / least_part);
-  const bool may_share = lease.count() > 1 && parts.size() > 1 && !bodies().space().slides();
+  const bool may_share = lease.count() > 1 && parts.size() > 1;
   const auto for_each_part = [&](auto work) {
     lease.parallel_for(ids.size(), least_part, [&](std::size_t from, std::size_t to, std::size_t) {
       work(from, to, parts[from / least_part]);
@@ -207,7 +205,7 @@ void EventProcessor::set_velocities(std::span<const BodyId> ids, std::span<const
       const std::uint32_t number = number_of(k);
       Body& body = bodies()[number];
       if (!body.fresh(time_)) bodies().give_change(number, place++).velocity = velocities[k];
-      if (body.bound.time == time_) body.bound.velocity = velocities[k];
+      if (body.bound.time == time_) body.bound.velocity = bodies().velocity_in_image(number, velocities[k]);
       ++body.revision;
       dirty_.put_turned(body, number, first_place + k);
       if (contacts().touches_any(number)) part.touching.push_back(number);
