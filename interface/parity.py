@@ -161,6 +161,11 @@ beyond = [
         "It is for fluids and packings, whose programs are in C++ and Python.",
     ),
     Capability(
+        "boxes that grow or shrink",
+        {"C++": "ExpandingBox", "Python": "ExpandingBox"},
+        "It is for fluids and packings, whose programs are in C++ and Python.",
+    ),
+    Capability(
         "a search for defects",
         {"C++": "audit", "Python": "audit", "JavaScript": "audit"},
         "It is for bugs of the library, which a recording of the world shows too.",

@@ -13,6 +13,7 @@
 #include "kinesphere/event.hpp"
 #include "kinesphere/event_hash.hpp"
 #include "kinesphere/event_range.hpp"
+#include "kinesphere/expanding_box.hpp"
 #include "kinesphere/filter.hpp"
 #include "kinesphere/game_world.hpp"
 #include "kinesphere/inspection.hpp"

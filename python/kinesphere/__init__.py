@@ -80,6 +80,7 @@ from ._kinesphere import version as __version__
 from .approaches import Approaches, tracks
 from .errors import BodyError, InvalidValue, KinesphereError, StateError
 from .events import Events, MonitorEvents
+from .expanding_box import ExpandingBox
 from .ids import BodyId, index_of
 from .kinds import EventKind, MonitorEventKind, Senses, Verdict, Wall
 from .paths import PathApproaches, PolynomialPaths
@@ -112,6 +113,7 @@ __all__ = [
     "EventIterator",
     "EventKind",
     "Events",
+    "ExpandingBox",
     "FrameMotion",
     "GameWorld",
     "HalfSpace",

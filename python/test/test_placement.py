@@ -63,3 +63,46 @@ def test_what_cannot_be_placed_is_refused() -> None:
         ks.place_spheres(0.5, box, periodic=True, packing=0.73)
     with pytest.raises(ks.InvalidValue, match="xy"):
         ks.place_spheres(1.0, ((0, 0), (9, 9)), periodic="xyz", dimensions=2)
+
+
+def shrinking(flow: str, positions: Any, velocities: Any, radii: Any, duration: float) -> ks.Events:
+    """Contacts, without a response, in a box of ten by ten by ten that shrinks."""
+    box = ks.ExpandingBox(rate=-0.05, flow=flow, start_time=3.0)  # type: ignore[arg-type]
+    world = ks.World(box=((0, 0, 0), (10, 10, 10)), periodic=True, contacts="impacts")
+    motion = ks.Ballistic(*box.seen(positions, velocities, 3.0))
+    world.set_radius_rate(world.add_motion(motion, radii=radii), box.radius_rates(radii))
+    return box.real_events(world.run(box.clock(3.0 + duration), motion, ks.Bouncing()))
+
+
+def test_a_box_shrinks_around_balls_at_rest() -> None:
+    # 2 apart across the border, of which the radii take 1: the box has lost that when it has 9.
+    at, rest = [[1, 5, 5], [9, 5, 5]], np.zeros((2, 3))
+    event = shrinking("free", at, rest, [0.5, 0.5], 3.0)[0]
+    assert event.time == pytest.approx(5.0, abs=1e-5)
+    assert event.approach_speed == pytest.approx(0.5)  # as the box shrinks
+    assert np.linalg.norm(event.second_position - event.first_position) == pytest.approx(1.0, abs=1e-5)
+    # It carries them along: what is 2 across the border is 1 at half of the scale.
+    event = shrinking("carried", at, rest, [0.5, 0.5], 15.0)[0]
+    assert event.time == pytest.approx(3.0 + np.log(2.0) / 0.05, abs=1e-4)
+    assert event.approach_speed == pytest.approx(0.05)
+
+
+def test_states_in_a_box_that_grows_come_back() -> None:
+    rng = np.random.default_rng(3)
+    positions, velocities = rng.normal(size=(5, 3)), rng.normal(size=(5, 3))
+    for flow in ("free", "carried"):
+        box = ks.ExpandingBox(rate=0.3, flow=flow)  # type: ignore[arg-type]
+        clock = box.clock(2.0)
+        assert box.time(clock) == pytest.approx(2.0) and box.scale_at(clock) == pytest.approx(
+            float(box.scale(2.0))
+        )
+        back = box.real(*box.seen(positions, velocities, 2.0), clock)
+        np.testing.assert_allclose(back, [positions, velocities])
+    assert ks.ExpandingBox(rate=0.1).time(10.0) == np.inf and ks.ExpandingBox(rate=-0.1).clock(10.0) == np.inf
+
+
+def test_boxes_that_change_in_no_known_way_are_refused() -> None:
+    with pytest.raises(ks.InvalidValue, match="rate must be finite, but is nan"):
+        ks.ExpandingBox(rate=np.nan)
+    with pytest.raises(ks.InvalidValue, match="flow must be 'free' or 'carried', but is 'shear'"):
+        ks.ExpandingBox(rate=0.1, flow="shear")  # type: ignore[arg-type]

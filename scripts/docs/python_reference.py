@@ -21,7 +21,8 @@ page = Path(sys.argv[1])
 GROUPS = {
     "Worlds": "World GameWorld Event Events EventKind EventIterator EventHash BodyId Wall Senses Workers Counters BodyView BusyBody",
     "Certified answers": "SafeTime SafeSeparation EarliestContact EarliestApproach DistanceLimits",
-    "Shapes and starts": "Ball Box Capsule HalfSpace Hull Mesh Triangle place_spheres radial_distribution",
+    "Shapes and starts": "Ball Box Capsule HalfSpace Hull Mesh Triangle place_spheres radial_distribution"
+    " ExpandingBox",
     "Motions": "Motion Ballistic RandomForces VelocityField Circulation RecordedTracks SteeredMotion FrameMotion"
     " MotionSource BodyMap",
     "Responses": "Bouncing Roughness StepPotential bounce bounce_rigid settle least_resting_speed",
