@@ -49,13 +49,13 @@ Result<void> RankResponder::check(const Event& event, const Response& answer) co
   if (valid) valid = check_change(event.first, answer.first_angular_velocity, "first_angular_velocity", spin);
   if (valid)
     valid = check_change(event.second, answer.second_angular_velocity, "second_angular_velocity", spin);
-  if (valid && (answer.first_action != BodyAction::none || answer.second_action != BodyAction::none ||
-                answer.stop || answer.turned_back || answer.pair_state)) {
+  if (valid &&
+      (answer.first_action != BodyAction::none || answer.second_action != BodyAction::none || answer.stop)) {
     valid = Error{ErrorCode::unsupported, "respond", event.first,
-                  "run: respond: a distributed world accepts velocities, but no actions, no stops, no bodies "
-                  "that are turned back and no states of pairs"};
+                  "run: respond: a distributed world accepts velocities, states of pairs and bodies that are "
+                  "turned back, but no actions and no stops"};
   }
-  return valid;
+  return valid ? check_pair_response(event, answer) : valid;
 }
 
 }  // namespace kinesphere

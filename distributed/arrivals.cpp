@@ -12,6 +12,16 @@
 #include "processor/overlaps.hpp"
 
 namespace kinesphere {
+namespace {
+
+/// Returns the first record whose name is not less.
+auto record_named(auto& records, std::uint32_t name) {
+  return std::lower_bound(
+      records.begin(), records.end(), name,
+      [](const BodyRecord& record, std::uint32_t wanted) { return record.name < wanted; });
+}
+
+}  // namespace
 
 /// Checks what bodies of all kinds have in common.
 Result<void> DistributedWorld::RankEngine::check_addition(std::uint32_t name, const BodyDefinition& body,
@@ -20,9 +30,14 @@ Result<void> DistributedWorld::RankEngine::check_addition(std::uint32_t name, co
   auto valid =
       check_reach(sensors_.reach(body.sensor_class), body, no_body, "sensor_class", definition(), call);
   if (!valid) return valid;
-  const auto held =
-      std::lower_bound(own_.begin(), own_.end(), name,
-                       [](const BodyRecord& record, std::uint32_t wanted) { return record.name < wanted; });
+  // The extents of all depend on it, so all would have to arrive anew.
+  const double least = facts_.common_reach < infinity ? facts_.common_reach : 0.0;
+  if (const double reach = sensors_.reach(body.sensor_class); reach < least)
+    return Error{ErrorCode::unsupported, "sensor_class", no_body,
+                 std::string(call) +
+                     ": sensor_class must sense at least as far as all bodies of a distributed " +
+                     "world that has run, " + text_of(least) + ", but senses up to " + text_of(reach)};
+  const auto held = record_named(own_, name);
   const bool is_there = held != own_.end() && held->name == name;
   if (is_there || names_.contains(name) || name == no_body.index)
     return Error{ErrorCode::out_of_range,
@@ -111,6 +126,33 @@ Result<void> DistributedWorld::RankEngine::set_sensor(SensorClass sensor_class, 
   return agreed;
 }
 
+Result<void> DistributedWorld::RankEngine::set_pair_state(std::uint32_t first, std::uint32_t second,
+                                                          std::int32_t state) {
+  if (auto valid = consensus_.check("set_pair_state"); !valid) return valid;
+  if (first == second)
+    return Error{ErrorCode::out_of_range,
+                 "second",
+                 {second, 0, 0},
+                 "set_pair_state: second must be another body than first, but is " + std::to_string(second)};
+  take_arrivals();
+  for (const auto& [name, partner] : {std::pair(first, second), std::pair(second, first)}) {
+    const auto held = record_named(own_, name);
+    if (held == own_.end() || held->name != name) continue;
+    std::vector<PairNote>& notes = held->notes;
+    const auto note =
+        std::lower_bound(notes.begin(), notes.end(), partner,
+                         [](const PairNote& each, std::uint32_t wanted) { return each.partner < wanted; });
+    const bool is_there = note != notes.end() && note->partner == partner;
+    if (is_there && (state != 0 || note->is_turned()))
+      note->state = state;
+    else if (is_there)
+      notes.erase(note);
+    else if (state != 0)
+      notes.insert(note, {partner, state});
+  }
+  return {};
+}
+
 /// Makes records of the bodies that have been added.
 void DistributedWorld::RankEngine::take_arrivals() {
   const std::uint32_t count = arriving_->bodies.numbers();
@@ -134,11 +176,13 @@ void DistributedWorld::RankEngine::take_arrivals() {
 Result<void> DistributedWorld::RankEngine::start_arrivals() {
   take_arrivals();
   std::vector<BodyRecord*> arrivals;
+  double least_reach = facts_.common_reach;
   std::array<std::uint64_t, 6> sums{};
   auto& [arrived, exact, shaped, growing, drifting, all] = sums;
   for (BodyRecord& record : own_) {
     if (!record.is_arriving) continue;
     arrivals.push_back(&record);
+    least_reach = std::min(least_reach, sensors_.reach(record.body.sensor_class));
     const Bound& bound = record.body.bound;
     exact += bound.is_exact() ? 1 : 0;
     shaped += record.body.is_shaped() ? 1 : 0;
@@ -154,6 +198,7 @@ Result<void> DistributedWorld::RankEngine::start_arrivals() {
   facts_.grows = facts_.grows || growing > 0;
   facts_.drifts = facts_.drifts || drifting > 0;
   if (auto unique = agree(names_.check(communicator_)); !unique) return unique;
+  facts_.common_reach = communicator_.least(least_reach);
   measure(all);
   if (arrived > core::single_arrivals) choose_radii(arrivals);
   return {};

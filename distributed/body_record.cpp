@@ -21,6 +21,10 @@ BodyRecord record_of(const Bodies& bodies, const ContactGraph& contacts, std::ui
     partners.set({name_of(partner), state});
   record.contacts.partners = std::move(partners);
   for (OverlapRecord& overlap : record.contacts.overlaps) overlap.partner = name_of(overlap.partner);
+  for (PairNote note : contacts.pairs().of(number)) {
+    note.partner = name_of(note.partner);
+    record.notes.push_back(note);
+  }
   return record;
 }
 

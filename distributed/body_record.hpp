@@ -10,6 +10,7 @@
 #include "bodies/bodies.hpp"
 #include "contact/contact_graph.hpp"
 #include "contact/contacts_of_body.hpp"
+#include "contact/pair_notes.hpp"
 #include "core/core.hpp"
 
 namespace kinesphere {
@@ -32,6 +33,7 @@ struct BodyRecord {
   std::vector<Shape> shape{};        ///< one, of a moving shape; few bodies have one
   std::vector<RigidRecord> rigid{};  ///< one, of a rigid body
   ContactsOfBody contacts{};
+  std::vector<PairNote> notes{};  ///< in ascending order of the others
   /// It has arrived, and has no part in what moves as yet. `first_radius`: of its first safe region (length);
   /// 0 if it looks how far others are.
   bool is_arriving = false;
@@ -49,8 +51,8 @@ struct BodyRecord {
 
   static void serialize(auto& self, auto& archive) {
     archive(self.name, self.owner, self.body, self.image, self.filter, self.mass, self.radius, self.shape,
-            self.rigid, self.contacts, self.is_arriving, self.first_radius, self.core, self.region_centre,
-            self.region_reach, self.times, self.motion);
+            self.rigid, self.contacts, self.notes, self.is_arriving, self.first_radius, self.core,
+            self.region_centre, self.region_reach, self.times, self.motion);
   }
 };
 

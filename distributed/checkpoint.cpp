@@ -12,7 +12,7 @@ namespace kinesphere {
 namespace {
 
 constexpr Envelope envelope{{'K', 'i', 'n', 'e', 'd', 'w', '\r', '\n'},
-                            11,
+                            12,
                             "part of a distributed world",
                             "restore",
                             "parts",
@@ -39,7 +39,7 @@ Result<Checkpoint> Checkpoint::read(std::span<const std::byte> bytes) {
   if (!check_world(checkpoint.definition) || checkpoint.definition.shear_rate != 0.0 ||
       checkpoint.part >= checkpoint.identity.parts || !std::isfinite(checkpoint.identity.time) ||
       !checkpoint.facts.spot_checks.is_valid(checkpoint.identity.time) ||
-      !(checkpoint.facts.first_radius >= 0.0))
+      !(checkpoint.facts.first_radius >= 0.0) || !(checkpoint.facts.common_reach >= 0.0))
     return refusal("must be consistent, but one contradicts itself");
   return checkpoint;
 }

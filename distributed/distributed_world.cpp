@@ -56,6 +56,10 @@ Result<void> DistributedWorld::set_sensor(SensorClass sensor_class, const Sensor
   return engine_->set_sensor(sensor_class, sensor);
 }
 
+Result<void> DistributedWorld::set_pair_state(std::uint32_t first, std::uint32_t second, std::int32_t state) {
+  return engine_->set_pair_state(first, second, state);
+}
+
 Result<void> DistributedWorld::run(double until, const ResponseFn& respond, const OrderedEventFn& sink,
                                    Workers* workers) {
   return engine_->run(until, &respond, sink, workers);

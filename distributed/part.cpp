@@ -1,6 +1,7 @@
 #include "distributed/part.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "number/infinity.hpp"
 
@@ -22,6 +23,7 @@ Part::Part(const WorldDefinition& definition, const SensorTable& sensors, const 
   main_.reports().ask(probe_, "run");
   state_.contacts.find_numbers_in_tags();
   state_.bodies.sensors = sensors;
+  state_.bodies.common_reach = facts.common_reach;
   state_.spot_checks = facts.spot_checks;
   if (facts.has_shapes) state_.bodies.rigid.note_elsewhere();
   main_.advance_clock(time);
@@ -55,6 +57,11 @@ void Part::link(std::uint32_t number, const BodyRecord& record) {
     if (const auto partner = numbers_.find(overlap.partner))
       overlaps.push_back({*partner, overlap.distance, overlap.senses});
   state_.contacts.set_links(number, partners, std::move(overlaps));
+  std::vector<PairNote> notes;
+  for (const PairNote& note : record.notes)
+    if (const auto partner = numbers_.find(note.partner))
+      notes.push_back({*partner, note.state, note.turned_at});
+  state_.contacts.pairs().set_of(number, std::move(notes));
   for (const auto& [name, until] : record.times)
     if (const auto other = numbers_.find(name))
       main_.pair_times().keep(state_.bodies, number, *other, until, time());
@@ -85,15 +92,23 @@ BodyRecord Part::record_of(std::uint32_t number) const {
   return record;
 }
 
+/// Gives a record the notes back of those who are not in this part, with whom nothing has happened.
+void Part::keep_notes(const BodyRecord& before, BodyRecord& now) const {
+  for (const PairNote& note : before.notes)
+    if (!numbers_.find(note.partner)) now.notes.push_back(note);
+  std::sort(now.notes.begin(), now.notes.end(),
+            [](const PairNote& a, const PairNote& b) { return a.partner < b.partner; });
+}
+
 std::uint64_t Part::update(std::vector<BodyRecord>& records) const {
   std::vector<std::uint32_t> places(numbers(), core::none);
   std::uint64_t notes = 0;
   for (std::uint32_t place = 0; place < records.size(); ++place) {
     const std::uint32_t number = number_of(records[place].name);
     notes += ghosts_.notes_of(number);
-    const double cost = records[place].cost + ghosts_.notes_of(number);
-    records[place] = record_of(number);
-    records[place].cost = cost;
+    const BodyRecord before = std::exchange(records[place], record_of(number));
+    records[place].cost = before.cost + ghosts_.notes_of(number);
+    keep_notes(before, records[place]);
     places[number] = place;
   }
   main_.pair_times().for_each(state_.bodies, [&](std::uint32_t a, std::uint32_t b, double until) {
@@ -155,6 +170,10 @@ Result<void> Part::deliver(const Event& event, std::uint32_t round, RankResponde
     if (part.velocity) main_.set_velocity(part.body, *part.velocity);
   for (const BodyResponse& part : parts)
     if (part.angular_velocity) main_.set_angular_velocity(table.number_of(part.body), *part.angular_velocity);
+  if (answer->pair_state)
+    state_.contacts.pairs().set_state(table.number_of(event.first), table.number_of(event.second),
+                                      *answer->pair_state);
+  if (answer->turned_back) main_.turn_back(event);
   return {};
 }
 

@@ -12,21 +12,24 @@
 #include "distributed/body_record.hpp"
 #include "distributed/name_table.hpp"
 #include "kinesphere/distributed/distributed_world.hpp"
+#include "number/infinity.hpp"
 #include "processor/event_processor.hpp"
 
 namespace kinesphere {
 
 /// What concerns all bodies of a distributed world, equal on all ranks.
 struct WorldFacts {
-  bool has_shapes = false;     ///< some body is no ball
-  bool grows = false;          ///< the bound of some body grows
-  bool drifts = false;         ///< that of some body has a planned acceleration or a growth speed
-  double first_radius = 0.0;   ///< of the first safe region of a body that arrives alone (length)
-  std::uint64_t measured = 0;  ///< how many bodies there were when first_radius was chosen
+  bool has_shapes = false;         ///< some body is no ball
+  bool grows = false;              ///< the bound of some body grows
+  bool drifts = false;             ///< that of some body has a planned acceleration or a growth speed
+  double common_reach = infinity;  ///< up to which all bodies sense, if there are any (length)
+  double first_radius = 0.0;       ///< of the first safe region of a body that arrives alone (length)
+  std::uint64_t measured = 0;      ///< how many bodies there were when first_radius was chosen
   SpotChecks spot_checks{};
 
   static void serialize(auto& self, auto& archive) {
-    archive(self.has_shapes, self.grows, self.drifts, self.first_radius, self.measured, self.spot_checks);
+    archive(self.has_shapes, self.grows, self.drifts, self.common_reach, self.first_radius, self.measured,
+            self.spot_checks);
   }
 };
 
@@ -68,6 +71,7 @@ class Part {
   void install(const BodyRecord& record);
   void link(std::uint32_t number, const BodyRecord& record);
   BodyRecord record_of(std::uint32_t number) const;
+  void keep_notes(const BodyRecord& before, BodyRecord& now) const;
   core::Core::Record numbered(std::uint32_t number, const BodyRecord& record) const;
   Result<void> deliver(const Event& event, std::uint32_t round, RankResponder* responder,
                        std::vector<OrderedEvent>& events);

@@ -45,6 +45,7 @@ class DistributedWorld::RankEngine {
   Result<void> add_rigid_body(std::uint32_t name, const RigidBody& added, std::uint32_t number_in_motion);
   Result<void> add_moving_shape(std::uint32_t name, const MovingShape& added, std::uint32_t number_in_motion);
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
+  Result<void> set_pair_state(std::uint32_t first, std::uint32_t second, std::int32_t state);
 
   Result<void> run(double until, const ResponseFn* respond, const OrderedEventFn& sink, Workers* workers);
 

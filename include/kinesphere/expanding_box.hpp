@@ -32,6 +32,7 @@ class ExpandingBox {
     /// peculiar) stays as it is; scale(t) = exp(rate t), a strain at a constant rate. States have v.
     carried,
   };
+  /// How a box changes.
   struct Definition {
     /// Rate of the scale at the start (1 / time); negative for a box that shrinks.
     double rate = 0.0;

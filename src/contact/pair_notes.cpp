@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace kinesphere {
 
@@ -27,6 +28,12 @@ void PairNotes::set_turned(std::uint32_t a, std::uint32_t b, std::optional<doubl
   PairNote note = between(a, b);
   note.turned_at = distance.value_or(-1.0);
   keep(a, note);
+}
+
+void PairNotes::set_of(std::uint32_t body, std::vector<PairNote> notes) {
+  if (notes.empty() && body >= lists_.size()) return;
+  if (body >= lists_.size()) lists_.resize(body + std::size_t{1});
+  lists_[body] = std::move(notes);
 }
 
 void PairNotes::forget_turns(std::uint32_t body) {

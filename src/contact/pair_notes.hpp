@@ -38,6 +38,8 @@ class PairNotes {
 
   void set_state(std::uint32_t a, std::uint32_t b, std::int32_t state);
   void set_turned(std::uint32_t a, std::uint32_t b, std::optional<double> distance);
+  /// Sets the notes of a body alone. Those of its partners have to be set alike.
+  void set_of(std::uint32_t body, std::vector<PairNote> notes);
   /// Forgets that the body has been turned back anywhere.
   void forget_turns(std::uint32_t body);
   /// Forgets all of the body.

@@ -1,6 +1,8 @@
 #include "processor/responses.hpp"
 
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "bodies/validation.hpp"
 #include "space/space.hpp"
@@ -30,6 +32,18 @@ void move_to_images_of(MotionSource& source, const Space& space, const Event& ev
   };
   move(event.first, event.first_state, answer.first_velocity);
   move(event.second, event.second_state, answer.second_velocity);
+}
+
+Result<void> check_pair_response(const Event& event, const Response& answer) {
+  const auto refused = [&](std::string_view argument, std::string_view what) -> Result<void> {
+    return Error{ErrorCode::unsupported, std::string(argument), event.first,
+                 "run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind)) +
+                     ": must be given only at " + std::string(what)};
+  };
+  if (answer.pair_state && event.second == no_body) return refused("pair_state", "an event of two bodies");
+  if (answer.turned_back && !is_of_sensor(event.kind))
+    return refused("turned_back", "a sensor_enter or a sensor_leave");
+  return {};
 }
 
 Result<void> apply_response(MotionSource& source, const WorldDefinition& world, const Event& event,

@@ -25,6 +25,9 @@ inline std::array<BodyResponse, 2> parts_of(const Event& event, const Response& 
            {event.second, answer.second_velocity, answer.second_angular_velocity, answer.second_action}}};
 }
 
+/// Checks what a response says of the pair. Errors: unsupported for a state of no pair, and where no sensor
+/// distance is crossed.
+Result<void> check_pair_response(const Event& event, const Response& answer);
 /// Gives a response the velocities in the images in which the source has the bodies, where images slide.
 void move_to_images_of(MotionSource& source, const Space& space, const Event& event, Response& answer);
 /// Sets the origins of all bodies with new velocities, or of none if the source throws or returns a state

@@ -179,19 +179,7 @@ class World::Run {
       valid = check_spin(event, event.first, answer.first_angular_velocity, "first_angular_velocity");
     if (valid)
       valid = check_spin(event, event.second, answer.second_angular_velocity, "second_angular_velocity");
-    return valid ? check_pair(event, answer) : valid;
-  }
-
-  static Result<void> check_pair(const Event& event, const Response& answer) {
-    const auto refused = [&](std::string_view argument, std::string_view what) -> Result<void> {
-      return Error{ErrorCode::unsupported, std::string(argument), event.first,
-                   "run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind)) +
-                       ": must be given only at " + std::string(what)};
-    };
-    if (answer.pair_state && event.second == no_body) return refused("pair_state", "an event of two bodies");
-    if (answer.turned_back && !is_of_sensor(event.kind))
-      return refused("turned_back", "a sensor_enter or a sensor_leave");
-    return {};
+    return valid ? check_pair_response(event, answer) : valid;
   }
 
   Result<void> check_action(const Event& event, BodyId body, BodyAction action,

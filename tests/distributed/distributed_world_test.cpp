@@ -2,6 +2,7 @@
 // reports, for any number of ranks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "simulation/oracle/comparison.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "support/differential_scenes.hpp"
+#include "support/expect_error.hpp"
 
 namespace kinesphere::distributed_world_test {
 namespace {
@@ -144,6 +146,46 @@ TEST(DistributedWorld, TellsOfUnknownCoursesAtOneEndOfATube) {
 TEST(DistributedWorld, TellsOfRadiiThatChange) {
   expect_the_same_as_alone({.scene = scene_of(parameters_of("paper1", 300, 2.0)), .radius_rate = 0.1}, 300);
   expect_the_same_as_alone({.scene = scene_of(parameters_of("gas", 200, 1.0)), .radius_rate = 0.02}, 300);
+}
+
+/// What is remembered of pairs goes on with them, wherever the two are and whenever they meet again.
+TEST(DistributedWorld, TellsOfPotentialsAndStatesOfPairs) {
+  SceneParameters parameters = parameters_of("gas", 150, 2.0);
+  parameters.packing = 0.15;
+  const Setting setting{
+      .scene = scene_of(parameters),
+      .potential = StepPotential::Definition{.distances = {0.4, 0.9}, .energies = {-0.4, -0.2}},
+      .slices = 3};
+  const RunOutcome one = alone(setting);
+  const auto in_state = [&](int least) {
+    return std::count_if(one.events.begin(), one.events.end(),
+                         [&](const Event& event) { return event.pair_state >= least; });
+  };
+  EXPECT_GT(in_state(2), 100);
+  EXPECT_GT(in_state(3), 20);
+  expect_same(one, spread_out(setting));
+}
+
+/// The first two meet after one has flown past many others, through the parts of ranks that do not know both.
+TEST(DistributedWorld, RemembersPairsThatAreFarApart) {
+  BallisticDefinition flight;
+  flight.start = {{{0, 10, 0}, {80, 0, 0}}, {{600, 10, 0}, {}}};
+  for (int k = 0; k < 150; ++k) flight.start.push_back({{4.0 * k, 0, 0}, {}});
+  Scene scene;
+  scene.bodies.resize(flight.start.size(), {.radius = 1.0});
+  scene.motion = Ballistic::create(flight).value().clone();
+  scene.end_time = 10.0;
+  const Setting setting{.scene = std::move(scene),
+                        .potential = StepPotential::Definition{.distances = {0.4}, .energies = {-0.4}},
+                        .slices = 10};
+  const RunOutcome one = alone(setting);
+  ASSERT_EQ(one.events.size(), 4u);
+  EXPECT_EQ(one.events[1].kind, EventKind::contact_begin);
+  EXPECT_EQ(one.events[1].pair_state, 1);
+  const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
+  DistributedWorld world = spread(setting, *motion);
+  expect_same(one, finish(setting, world));
+  EXPECT_LT(world.figures().ghosts, 100u);
 }
 
 /// Clusters are large, and their bodies come to ranks while these execute.
@@ -278,7 +320,8 @@ TEST(DistributedWorld, TellsOfChainsThroughAllOfSpace) {
   expect_the_same_as_alone({.scene = std::move(scene)}, 200);
 }
 
-TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
+/// `senses`: all bodies, and the late ones farther.
+void expect_the_same_with_more_bodies_later(bool senses) {
   SceneParameters parameters = parameters_of("paper1", 200, 2.0);
   parameters.walls = false;
   Setting setting{.scene = scene_of(parameters)};
@@ -289,6 +332,8 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
   RunOutcome one;
   EventHash hash;
   World world = World::create(setting.scene.world).value();
+  const Sensor sensors[] = {{.distances = {0.5}}, {.distances = {0.7}}};
+  for (const SensorClass k : {SensorClass{1}, SensorClass{2}}) world.set_sensor(k, sensors[k - 1]).value();
   BodyMap map;
   const auto sink = [&](const Event& event) { hash.add(event); };
   std::vector<std::uint32_t> order;
@@ -302,6 +347,7 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
   const auto body_at = [&](std::uint32_t place, const Motion& source, double time) {
     BodyDefinition body = source.definition(order[place], time);
     body.radius = ordered.scene.bodies[place].radius;
+    if (senses) body.sensor_class = late(order[place]) ? 2 : 1;
     return body;
   };
   std::uint32_t place = 0;
@@ -314,6 +360,8 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
 
   const std::unique_ptr<Motion> spread_motion = setting.scene.motion->clone();
   DistributedWorld distributed = DistributedWorld::create(setting.scene.world, *spread_motion).value();
+  for (const SensorClass k : {SensorClass{1}, SensorClass{2}})
+    distributed.set_sensor(k, sensors[k - 1]).value();
   std::uint32_t next = 0;
   for (const double until : {1.0, 2.0}) {
     for (; next < order.size() && late(order[next]) == (until == 2.0); ++next)
@@ -322,8 +370,16 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
     const auto done = distributed.run(until, ordered_respond, [](const OrderedEvent&) {});
     ASSERT_TRUE(done) << done.error().message;
   }
+  if (senses)
+    expect_error(distributed.add(9999, {.radius = 0.1}, 0), ErrorCode::unsupported, "sensor_class", "add: ");
   EXPECT_EQ(distributed.hash().value(), hash.value());
   EXPECT_EQ(distributed.counters().probes, world.counters().probes);
+  EXPECT_EQ(distributed.counters().pair_checks, world.counters().pair_checks);
+}
+
+TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
+  expect_the_same_with_more_bodies_later(false);
+  expect_the_same_with_more_bodies_later(true);
 }
 
 /// In scenes without responses the truth is known.

@@ -40,6 +40,9 @@ struct Setting {
   bool sensors = false;
   std::vector<double> distances{0.4, 1.1};
   double position_error = 0.0;
+  /// All bodies have this potential, but for pairs in an odd state. The state of a pair counts its contacts,
+  /// and begins at 1 for neighbours by number.
+  std::optional<StepPotential::Definition> potential{};
   /// Radii grow at this rate, keep or shrink at it, in turn.
   double radius_rate = 0.0;
   /// Parts, rotation, limits of turning and inertia of the bodies that are not balls, by number.
@@ -82,8 +85,18 @@ struct Setting {
     definition.body.radius_rate = 0.0;
     add_rigid(definition);
   }
-  Sensor sensor() const { return {.distances = distances}; }
+  void set_sensors(auto& world) const {
+    if (sensors) world.set_sensor(1, {.distances = distances}).value();
+    if (potential) world.set_sensor(0, {.distances = potential->distances}).value();
+  }
   Response answer(const Event& event) const {
+    if (potential) {
+      const bool has_potential = event.pair_state % 2 == 0;
+      const StepPotential steps = StepPotential::create(*potential, scene.world).value();
+      Response response = has_potential || !is_of_sensor(event.kind) ? steps.respond(event) : Response{};
+      if (event.kind == EventKind::contact_begin) response.pair_state = event.pair_state + 1;
+      return response;
+    }
     const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
     if (scene.response != SceneResponse::bounce || !begins || event.approach_speed <= 0.0) return {};
     return response_of(event, bounce(event, scene.restitution));
@@ -94,12 +107,15 @@ inline RunOutcome alone(const Setting& setting) {
   const Scene& scene = setting.scene;
   const std::unique_ptr<Motion> motion = scene.motion->clone();
   World world = World::create(scene.world).value();
-  if (setting.sensors) world.set_sensor(1, setting.sensor()).value();
+  setting.set_sensors(world);
+  std::vector<BodyId> ids;
   for (std::uint32_t k = 0; k < scene.bodies.size(); ++k)
     setting.add(
-        k, [&](const BodyDefinition& body) { world.add(body).value(); },
-        [&](const RigidBody& body) { world.add_rigid_body(body).value(); },
-        [&](const MovingShape& body) { world.add_moving_shape(body).value(); });
+        k, [&](const BodyDefinition& body) { ids.push_back(world.add(body).value()); },
+        [&](const RigidBody& body) { ids.push_back(world.add_rigid_body(body).value()); },
+        [&](const MovingShape& body) { ids.push_back(world.add_moving_shape(body).value()); });
+  if (setting.potential)
+    for (std::size_t k = 1; k < ids.size(); ++k) world.set_pair_state(ids[k - 1], ids[k], 1).value();
   RunOutcome outcome;
   EventHash hash;
   const auto sink = [&](const Event& event) {
@@ -118,7 +134,7 @@ inline RunOutcome alone(const Setting& setting) {
 inline DistributedWorld spread(const Setting& setting, Motion& motion) {
   DistributedWorld world =
       DistributedWorld::create(setting.scene.world, motion, setting.communicator).value();
-  if (setting.sensors) world.set_sensor(1, setting.sensor()).value();
+  setting.set_sensors(world);
   const auto bodies = static_cast<std::uint32_t>(setting.scene.bodies.size());
   for (std::uint32_t k = 0; k < bodies; ++k)
     if (setting.bringer(k, bodies, world.ranks()) == world.rank())
@@ -128,6 +144,8 @@ inline DistributedWorld spread(const Setting& setting, Motion& motion) {
           [&](const MovingShape& body) { world.add_moving_shape(k, body, k).value(); });
   for (std::uint32_t k = 0; k < bodies; ++k)
     if (setting.bringer(k, bodies, world.ranks()) != world.rank()) motion.remove(k).value();
+  if (setting.potential)
+    for (std::uint32_t k = 1; k < bodies; ++k) world.set_pair_state(k - 1, k, 1).value();
   return world;
 }
 

@@ -71,7 +71,7 @@ struct RankFigures {
 /// run() the world cannot continue: every later call fails with rank_failed.
 ///
 /// Features of World that DistributedWorld lacks: static bodies, rotation probes, sleep, changes and removals
-/// between events, pair filters, queries, recordings. `allow_overlap` must be true.
+/// between events, timers, pair filters, queries, recordings. `allow_overlap` must be true.
 class DistributedWorld {
  public:
   /// Collective. Creates an empty world. `motion` moves the bodies of this rank and must outlive the world.
@@ -91,7 +91,8 @@ class DistributedWorld {
   /// Adds body `number_in_motion` of this rank's motion, in the state given by `body`, at the current time().
   /// `index` is the index of the body's id in events and must be unique over all ranks. Not collective.
   /// Errors: those of World::add; out_of_range (`index` belongs to a body that this rank holds); unknown_body
-  /// (the motion has no such body).
+  /// (the motion has no such body); unsupported (sensor_class: the world has run, and this body would sense
+  /// less far than all its bodies do).
   Result<void> add(std::uint32_t index, const BodyDefinition& body, std::uint32_t number_in_motion);
   /// Adds a rigid body in the same way, which keeps its angular velocity between contacts. It moves and turns
   /// as one of World::add_rigid_body(). Errors: those of add() and World::add_rigid_body(); unsupported
@@ -103,6 +104,11 @@ class DistributedWorld {
   /// no rank has added bodies. Errors, equal on all ranks: those of World::set_sensor; unsupported
   /// (sensor_class: there are bodies). After an error the world is unchanged and can continue.
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
+  /// Sets the state of the pair of bodies with these indices, as World::set_pair_state does. Not collective,
+  /// but to be called on all ranks between two runs, with equal arguments: each keeps it that holds one of
+  /// the two; a pair of which no rank holds both has none. Errors: out_of_range for one body twice. Cost:
+  /// O(log n), and O(n log n) once after bodies have been added.
+  Result<void> set_pair_state(std::uint32_t first, std::uint32_t second, std::int32_t state);
 
   /// Collective. Advances to `until` as World::run does. `respond` may be called several times for one event,
   /// and on several ranks, and must be a pure function, with equal responses everywhere; without it, events
