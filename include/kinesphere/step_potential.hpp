@@ -69,7 +69,9 @@ class StepPotential {
       : definition_(definition), crossing_(crossing) {}
 
   Definition definition_;
-  double crossing_;  ///< a crossing is told at most so far from its distance (length)
+  /// A first crossing is told at most so far from its distance (length); one of two that have been turned
+  /// back less than twice as far.
+  double crossing_;
 };
 
 }  // namespace kinesphere

@@ -185,19 +185,21 @@ std::optional<double> ContactPredictor<Partner>::next_check_if_apart() const {
 
 /// Decides for two that have been turned back, and are still beyond the distance by this gap, on their way
 /// back: it is crossed if they move on. They are looked at again when they are back, or before they are
-/// noticeably farther away.
+/// noticeably farther away. Where that is so soon that they get farther in less time, they may.
 template <class Partner>
 ContactDecision ContactPredictor<Partner>::decide_turned(double beyond, double approach_speed,
                                                          double error) const {
-  const double onward = threshold_.within ? -approach_speed : approach_speed;
-  const auto crossed = threshold_.within ? ContactRule::Change::end : ContactRule::Change::begin;
-  if (onward > error) return {.change = crossed};
-  const double tolerance = rule_.tolerance(), farther = ContactRule::farther * tolerance;
-  const double next =
-      threshold_.within
-          ? std::min(meeting(ContactRule::back_inside * tolerance), separation(beyond + farther))
-          : std::min(meeting(beyond - farther), separation(ContactRule::back_outside * tolerance));
-  return {.next_check = std::max(next, just_after(now_))};
+  const bool within = threshold_.within;
+  const double onward = within ? -approach_speed : approach_speed;
+  if (onward > error) return {.change = within ? ContactRule::Change::end : ContactRule::Change::begin};
+  const double tolerance = rule_.tolerance(), farthest = rule_.farthest_turned(threshold_, beyond);
+  const double step = (within ? 1.0 : -1.0) * ContactRule::farther * tolerance;
+  const auto until = [&](double gap) { return within ? separation(gap) : meeting(gap); };
+  const double stay = until(farthest), later = until(farthest + step);
+  const double on = later - stay > stay - now_ ? later : stay;
+  const double back = within ? meeting(ContactRule::back_inside * tolerance)
+                             : separation(ContactRule::back_outside * tolerance);
+  return {.next_check = std::max(std::min(on, back), just_after(now_))};
 }
 
 template <class Partner>

@@ -54,8 +54,18 @@ class ContactRule {
   /// at most the tolerance from the distance or, if they came from outside, a larger one.
   bool is_back(const Threshold& turned, double gap) const { return (gap <= tolerance_) == turned.within; }
   /// Gaps from the distance, in tolerances, that two who have been turned back have certainly not reached
-  /// until they are next looked at: on the side that they come from, and so much farther on the other.
-  static constexpr double back_inside = 0.5, back_outside = 1.5, farther = 0.125;
+  /// until they are next looked at, on the side that they come from.
+  static constexpr double back_inside = 0.5, back_outside = 1.5;
+  /// The farthest gap that they have certainly not reached then on the other side (length): beyond that of
+  /// all first crossings, or hardly farther than where they are. So two that swing about each other, and come
+  /// out again where they were turned back, get no farther.
+  double farthest_turned(const Threshold& turned, double gap) const {
+    const double hardly = 0x1p-20 * tolerance_;
+    return turned.within ? std::max(release_gap() + tolerance_, gap + hardly)
+                         : std::min(-tolerance_, gap - hardly);
+  }
+  /// By so much they may get farther, in tolerances, where time would otherwise stop.
+  static constexpr double farther = 0.125;
 
   /// Contact tolerance (length).
   double tolerance() const { return tolerance_; }

@@ -57,7 +57,7 @@ double StepPotential::energy(double gap) const {
 Response StepPotential::respond(const Event& event) const {
   if (event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin)
     return response_of(event, bounce(event, definition_.restitution));
-  if (!is_of_sensor(event.kind) || !(std::abs(event.gap - event.distance) <= crossing_)) return {};
+  if (!is_of_sensor(event.kind) || !(std::abs(event.gap - event.distance) <= 2.0 * crossing_)) return {};
   const auto& distances = definition_.distances;
   const auto place = std::lower_bound(distances.begin(), distances.end(), event.distance);
   if (place == distances.end() || *place != event.distance) return {};

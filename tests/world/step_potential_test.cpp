@@ -391,6 +391,49 @@ TEST(StepPotential, BondsHold) {
   EXPECT_GT(chain.kinetic(), 0.1 * energy);
 }
 
+/// Two that whirl about each other at the full length of their bond swing out again before they are back.
+/// They come out no farther each time, however often they are hit meanwhile so that they only just part.
+TEST(StepPotential, HoldsThoseWhoWhirlAtItsEnd) {
+  const WorldDefinition definition{.contacts = ContactEvents::impacts};
+  const StepPotential::Definition chain{.distances = {0.5}, .energies = {0.0}, .outside = infinity};
+  Fluid pair(definition, chain, {{{0.0, 0.0, 0.0}, {0.0, -1.1, 0.0}}, {{1.49, 0.0, 0.0}, {0.0, 1.1, 0.0}}});
+  const auto ids = pair.world.bodies();
+  Random random(6);
+  const auto gap = [&] {
+    const double now = pair.world.time();
+    return norm(pair.motion.state(1, now).position - pair.motion.state(0, now).position) - 2.0 * radius;
+  };
+  // Random speeds of parting, by orders of magnitude: each hit leaves the two as fast about each other.
+  const auto hit = [&] {
+    const double now = pair.world.time();
+    const Vec3 between = pair.motion.state(1, now).position - pair.motion.state(0, now).position;
+    const Vec3 along = between / norm(between), across = cross(Vec3{0, 0, 1}, along);
+    const double part = std::pow(10.0, random.uniform(-6.0, -1.0));
+    for (const std::uint32_t k : {0u, 1u}) {
+      const Vec3 velocity = (k == 0 ? -1.0 : 1.0) * (1.1 * across + part * along);
+      pair.motion.set_velocity(k, now, velocity).value();
+      pair.world.set_velocity(ids[k], velocity).value();
+    }
+  };
+  double most = 0.0;
+  std::size_t events = 0;
+  const auto respond = [&](const Event& event) { return pair.potential.respond(event); };
+  for (int round = 1; round <= 3000; ++round) {
+    pair.world
+        .run(pair.world.time() + random.uniform(0.0, 0.05), pair.source, respond,
+             [&](const Event& event) {
+               ++events;
+               most = std::max(most, event.gap);
+             })
+        .value();
+    ASSERT_EQ(pair.world.sensor_overlaps(ids[0]).value().size(), 1u) << round;
+    ASSERT_LT(gap(), 0.5 + 8e-6) << round;
+    hit();
+  }
+  EXPECT_LT(most, 0.5 + 8e-6);
+  EXPECT_GT(events, 5000u);
+}
+
 TEST(StepPotential, RefusesWhatIsNone) {
   using Definition = StepPotential::Definition;
   const double nan = std::numeric_limits<double>::quiet_NaN();
