@@ -61,6 +61,9 @@ class StepPotential {
   /// changes by along the line between them, or are turned back (Response::turned_back) where they have too
   /// little; at a contact they bounce. Energy and momentum are conserved to rounding, but for the
   /// restitution. Two that are within a distance from the start, or after a teleport, keep their velocities.
+  /// Nobody gets to where the energy is infinite. A chain that has come to rest, with contacts that lose
+  /// energy, may have more bonds at their full length than can hold at one instant; these give way, by an
+  /// eighth of the contact tolerance at a time.
   /// Other events, and other distances, have no effect. Cost: O(log(distances)).
   Response respond(const Event& event) const;
 

@@ -57,18 +57,20 @@ double StepPotential::energy(double gap) const {
 Response StepPotential::respond(const Event& event) const {
   if (event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin)
     return response_of(event, bounce(event, definition_.restitution));
-  if (!is_of_sensor(event.kind) || !(std::abs(event.gap - event.distance) <= 2.0 * crossing_)) return {};
+  if (!is_of_sensor(event.kind)) return {};
   const auto& distances = definition_.distances;
   const auto place = std::lower_bound(distances.begin(), distances.end(), event.distance);
   if (place == distances.end() || *place != event.distance) return {};
   const bool enters = event.kind == EventKind::sensor_enter;
-  // Another event of this instant may have turned them.
-  if (enters ? event.approach_speed <= 0.0 : event.approach_speed >= 0.0) return {.turned_back = true};
   const double nearer = energy(0.5 * (event.distance + (place == distances.begin() ? 0.0 : *(place - 1))));
   const double farther = energy(event.distance);
-  // Two that come from where none can be have been put there.
-  if ((enters ? farther : nearer) == infinity) return {};
-  const double gained = enters ? nearer - farther : farther - nearer;
+  const double before = enters ? farther : nearer, gained = (enters ? nearer : farther) - before;
+  // Two that come from where none can be have been put there. So have those who are far from the distance;
+  // but nobody gets to where none can be.
+  const bool is_there = std::abs(event.gap - event.distance) <= 2.0 * crossing_;
+  if (before == infinity || (!is_there && gained < infinity)) return {};
+  // Another event of this instant may have turned them.
+  if (enters ? event.approach_speed <= 0.0 : event.approach_speed >= 0.0) return {.turned_back = true};
   const double square =
       event.approach_speed * event.approach_speed - 2.0 * gained * inverse_effective_mass(event);
   const bool passes = square > 0.0;

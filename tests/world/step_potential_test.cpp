@@ -434,6 +434,29 @@ TEST(StepPotential, HoldsThoseWhoWhirlAtItsEnd) {
   EXPECT_GT(events, 5000u);
 }
 
+/// Nobody gets to where none can be, however far beyond the distance the two are, as those of a chain at rest
+/// may be. For a step of finite height they have been put there.
+TEST(StepPotential, TurnsThoseBackWhoAreFarBeyondABond) {
+  const auto answer = [](double outside, double gap) {
+    Event event{.kind = EventKind::sensor_leave, .first = {0, 0, 1}, .second = {1, 0, 1}};
+    event.gap = gap;
+    event.distance = 0.5;
+    event.normal = {1.0, 0.0, 0.0};
+    event.second_state.velocity.x = 2.0;
+    event.approach_speed = -2.0;
+    return StepPotential::create({.distances = {0.5}, .energies = {0.0}, .outside = outside}, {})
+        .value()
+        .respond(event);
+  };
+  for (const double gap : {0.5 + 4e-6, 0.5 + 4e-5, 0.6}) {
+    const Response bonded = answer(infinity, gap);
+    EXPECT_TRUE(bonded.turned_back) << gap;
+    EXPECT_EQ(bonded.first_velocity, (Vec3{2.0, 0.0, 0.0}));
+    EXPECT_EQ(bonded.second_velocity, Vec3{});
+    EXPECT_EQ(answer(0.5, gap).second_velocity.has_value(), gap < 0.5 + 1e-5) << gap;
+  }
+}
+
 TEST(StepPotential, RefusesWhatIsNone) {
   using Definition = StepPotential::Definition;
   const double nan = std::numeric_limits<double>::quiet_NaN();
