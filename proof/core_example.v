@@ -27,13 +27,14 @@ Hypothesis nothing_new : forall r : relation, only_ends r r.
 Definition both (x : body) : bool := x <? 2.
 Definition the_two (a b : body) : Prop := if (a =? 0) && (b =? 1) then True else False.
 Definition no_pair (a b : body) : Prop := False.
+Definition until_then (t : R) (a b : body) : until := if (a =? 0) && (b =? 1) then Some t else None.
 Definition in_the_graph (r : relation) (a b : body) : relation := if (a =? 0) && (b =? 1) then r else apart.
 
 Definition nobody : state :=
   mkState _ 0 (fun _ => mkBall _ false 0 false None held_p None None None None) no_pair (fun _ _ => apart) no_pair
-    (fun _ _ _ _ => False) (fun _ _ _ => False) (fun _ _ _ _ => False).
+    (fun _ _ => None) (fun _ _ _ _ => False) (fun _ _ _ => False) (fun _ _ _ _ => False).
 Definition with_body (a : body) (k : core_machine.bound) (s : state) : state :=
-  set_balls (put s a (changed (balls s a) true true (Some k))) (set_pairs (graph s) (news s) s).
+  set_balls (put s a (changed (balls s a) true true (Some k))) (set_pairs (graph s) (news s) (sure s) s).
 Definition added : state := with_body 1%nat q (with_body 0%nat p nobody).
 (* The first ball is due when it may meet the second one, which it answers for. *)
 Definition settled_balls (x : body) : Ball :=
@@ -43,18 +44,18 @@ Definition settled_balls (x : body) : Ball :=
   | _ => balls added x
   end.
 Definition two : state :=
-  mkState _ (now added) settled_balls the_two (graph added) no_pair (delivered added) (lived added) (stood added).
+  mkState _ (now added) settled_balls the_two (graph added) no_pair (until_then u) (delivered added) (lived added) (stood added).
 Definition passed (t : R) (s : state) : state :=
-  mkState _ t (balls s) (listed s) (graph s) (news s) (delivered s)
+  mkState _ t (balls s) (listed s) (graph s) (news s) (sure s) (delivered s)
     (fun a w e => lived s a w e \/ (there (balls s a) = true /\ now s <= w < t /\ e = revision (balls s a)))
     (fun a b w r => stood s a b w r \/ (now s <= w < t /\ r = graph s a b)).
-Definition rechecked (ka kb : Ball) (r : body -> body -> relation) (n : body -> body -> Prop) (s : state) : state :=
-  set_balls (fun x => if (x =? 0)%nat then ka else if (x =? 1)%nat then kb else balls s x) (set_pairs r n s).
-Definition seen : state := rechecked (settled_balls 0%nat) (settled_balls 1%nat) (graph added) the_two (passed u two).
-Definition reported : state := deliver_event 0%nat 1%nat touching (set_pairs (in_the_graph touching) the_two seen).
+Definition rechecked (ka kb : Ball) (r : body -> body -> relation) (n : body -> body -> Prop) (t : R) (s : state) : state :=
+  set_balls (fun x => if (x =? 0)%nat then ka else if (x =? 1)%nat then kb else balls s x) (set_pairs r n (until_then t) s).
+Definition seen : state := rechecked (settled_balls 0%nat) (settled_balls 1%nat) (graph added) the_two u (passed u two).
+Definition reported : state := deliver_event 0%nat 1%nat touching (set_pairs (in_the_graph touching) the_two (sure seen) seen).
 (* Nothing more to answer for. *)
 Definition postponed_ball : Ball := mkBall _ true 1 false (Some p) held_p (Some stop) (Some stop) (Some stop) None.
-Definition guarded : state := rechecked postponed_ball (settled_balls 1%nat) (in_the_graph touching) no_pair reported.
+Definition guarded : state := rechecked postponed_ball (settled_balls 1%nat) (in_the_graph touching) no_pair stop reported.
 Definition after_the_contact : state := passed stop guarded.
 
 Lemma not_the_two {A} (yes no : A) a b : ~ (a = 0%nat /\ b = 1%nat) -> (if (a =? 0) && (b =? 1) then yes else no) = no.
@@ -80,10 +81,10 @@ Proof.
     intros k E. injection E as <-. exact p_known.
   - apply (change (with_body 0%nat p nobody) 1%nat (Some q) (fun _ _ => apart) no_pair); try (intros ? ? _; reflexivity); simpl; auto.
     intros k E. injection E as <-. exact q_known.
-  - apply (settle added both settled_balls the_two no_pair).
+  - apply (settle added both settled_balls the_two no_pair (until_then u)).
     + intros [|[|x]]; simpl; try discriminate; reflexivity.
     + intros [|[|x]]; simpl; try discriminate; repeat split; reflexivity.
-    + intros x y Hx Hy. destruct x as [|[|x]], y as [|[|y]]; try discriminate Hx; try discriminate Hy. split; reflexivity.
+    + intros x y Hx Hy. destruct x as [|[|x]], y as [|[|y]]; try discriminate Hx; try discriminate Hy. repeat split; reflexivity.
     + intros [|[|x]] Sx _; try discriminate Sx; simpl.
       * split; [apply no_later_than; lra|]. split; [apply no_later_than; lra|]. exists p, (Some stop).
         split; [reflexivity|]. split; [apply p_stays|]. split; [apply no_later_than; lra|].
@@ -93,14 +94,14 @@ Proof.
         right. exists (Some stop). split; [apply q_stays|apply no_later_than; lra].
     + intros a b Lt _ Ca Cb. left. destruct a as [|a], b as [|[|b]]; try lia; try (destruct Cb as [Cb _]; discriminate Cb).
       exact I.
-    + intros a b Lt _ Ca Cb _. right. destruct a as [|a], b as [|[|b]]; try lia; try (destruct Cb as [Cb _]; discriminate Cb).
-      exists p, q, (Some u). split; [reflexivity|]. split; [reflexivity|]. split; [exact nothing_begins|].
+    + intros a b Lt _ Ca Cb _. right. left. destruct a as [|a], b as [|[|b]]; try lia; try (destruct Cb as [Cb _]; discriminate Cb).
+      split; [exists p, q; split; [reflexivity|]; split; [reflexivity|exact nothing_begins]|].
       left. apply no_later_than. simpl. lra.
   - apply (advance two u); simpl; try lra.
     + intros [|[|a]]; simpl; auto.
     + intros a b _ _ _ [].
     + intros [|[|a]] C; simpl; try exact I; lra.
-  - apply (recheck (passed u two) 0%nat 1%nat (settled_balls 0%nat) (settled_balls 1%nat) (graph added) the_two); simpl; auto.
+  - apply (recheck (passed u two) 0%nat 1%nat (settled_balls 0%nat) (settled_balls 1%nat) (graph added) the_two (until_then u)); simpl; auto.
     + left. reflexivity.
     + left. reflexivity.
     + intros x y _. reflexivity.
@@ -109,12 +110,13 @@ Proof.
   - apply (deliver seen 0%nat 1%nat (in_the_graph touching)); simpl; auto.
     + exact I.
     + intros x y Ot. apply (not_the_two touching apart x y Ot).
-  - apply (recheck reported 0%nat 1%nat postponed_ball (settled_balls 1%nat) (in_the_graph touching) no_pair); simpl; auto.
+  - apply (recheck reported 0%nat 1%nat postponed_ball (settled_balls 1%nat) (in_the_graph touching) no_pair (until_then stop)); simpl; auto.
     + right. split; [reflexivity|]. exists (Some stop), None. split; [reflexivity|]. right. split; reflexivity.
     + left. reflexivity.
     + intros x y _. reflexivity.
     + intros x y Ot. symmetry. apply (not_the_two True False x y Ot).
-    + right. exists p, q, (Some stop). split; [reflexivity|]. split; [reflexivity|]. split; [exact nothing_ends|].
+    + intros x y Ot. unfold until_then. rewrite !(not_the_two _ _ x y Ot). reflexivity.
+    + right. split; [exists p, q; split; [reflexivity|]; split; [reflexivity|exact nothing_ends]|].
       left. apply no_later_than. simpl. lra.
   - apply (advance guarded stop); simpl; try lra.
     + intros [|[|a]]; simpl; auto.

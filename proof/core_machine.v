@@ -73,6 +73,7 @@ Record state `{World} := mkState {
   listed : body -> body -> Prop;        (* the two are neighbours; by the smaller number, and the larger one *)
   graph : body -> body -> relation;     (* likewise; of a body with itself: of the body and the walls *)
   news : body -> body -> Prop;          (* events to be delivered, or delivered and not looked at again *)
+  sure : body -> body -> until;         (* nothing happens between the two before: when their certificate ends *)
   delivered : body -> body -> R -> relation -> Prop; (* delivered events, and what the contact graph says since *)
   (* History, for the theorem: the revision with which a body left a time, and what the contact graph then said. *)
   lived : body -> R -> nat -> Prop;
@@ -92,20 +93,29 @@ Definition answers_until (k : Ball) (b : body) : until := if is_about k b then d
 (* Pairs that somebody has to look at: neighbours, and those that touch or sense each other. *)
 Definition concerned (s : state) (a b : body) : Prop := listed s a b \/ graph s a b <> apart.
 
-(* Nothing happens between two before one of them is due for it. *)
+(* One of two is due by the end of their certificate. It may be due for itself: what is certain of two no longer than they
+   stay in their safe regions ends with the own time of one, which need not be the one that looks out for the other. *)
+Definition one_is_due (s : state) (a b : body) : Prop :=
+  no_later (answers_until (balls s a) b) (sure s a b) \/ no_later (answers_until (balls s b) a) (sure s a b) \/
+  no_later (own (balls s a)) (sure s a b) \/ no_later (own (balls s b)) (sure s a b).
+
+(* Two get a certificate, from their present bounds. *)
 Definition certified (s : state) (a b : body) : Prop :=
-  exists p q u,
-    known (balls s a) = Some p /\ known (balls s b) = Some q /\ certifies (graph s a b) p q (now s) u /\
-    (no_later (answers_until (balls s a) b) u \/ no_later (answers_until (balls s b) a) u \/
-     no_later (own (balls s a)) u \/ no_later (own (balls s b)) u).
+  (exists p q, known (balls s a) = Some p /\ known (balls s b) = Some q /\
+     certifies (graph s a b) p q (now s) (sure s a b)) /\ one_is_due s a b.
+
+(* Two keep the certificate that they had. If one now stays in its safe region for longer, nobody may be due by the end
+   of it any more: then they need another. *)
+Definition keep_certificate (s s' : state) (a b : body) : Prop :=
+  clean s a /\ clean s b /\ concerned s a b /\ ~ news s a b /\ sure s' a b = sure s a b /\ one_is_due s' a b.
 
 Definition put (s : state) (a : body) (v : Ball) : body -> Ball := fun x => if x =? a then v else balls s x.
 Definition set_balls (f : body -> Ball) (s : state) : state :=
-  mkState _ (now s) f (listed s) (graph s) (news s) (delivered s) (lived s) (stood s).
-Definition set_pairs (r : body -> body -> relation) (n : body -> body -> Prop) (s : state) : state :=
-  mkState _ (now s) (balls s) (listed s) r n (delivered s) (lived s) (stood s).
+  mkState _ (now s) f (listed s) (graph s) (news s) (sure s) (delivered s) (lived s) (stood s).
+Definition set_pairs (r : body -> body -> relation) (n : body -> body -> Prop) (v : body -> body -> until) (s : state) : state :=
+  mkState _ (now s) (balls s) (listed s) r n v (delivered s) (lived s) (stood s).
 Definition deliver_event (a b : body) (r : relation) (s : state) : state :=
-  mkState _ (now s) (balls s) (listed s) (graph s) (news s)
+  mkState _ (now s) (balls s) (listed s) (graph s) (news s) (sure s)
     (fun x y t q => delivered s x y t q \/ (x = a /\ y = b /\ t = now s /\ q = r)) (lived s) (stood s).
 
 (* Nothing changes except pairs of one body, or except one pair. *)
@@ -142,42 +152,43 @@ Inductive step : state -> state -> Prop :=
       (forall p, k = Some p -> keeps_to (a, S (revision (balls s a))) p (now s)) ->
       same_but_of a r (graph s) -> same_but_of a n (news s) ->
       (forall x y, only_ends (graph s x y) (r x y)) ->
-      step s (set_balls (put s a (changed (balls s a) true true k)) (set_pairs r n s))
+      step s (set_balls (put s a (changed (balls s a) true true k)) (set_pairs r n (sure s) s))
 
   (* A body is removed or disabled. *)
   | go s a r n :
       same_but_of a r (graph s) -> same_but_of a n (news s) ->
       (forall x y, only_ends (graph s x y) (r x y)) ->
-      step s (set_balls (put s a (changed (balls s a) false false None)) (set_pairs r n s))
+      step s (set_balls (put s a (changed (balls s a) false false None)) (set_pairs r n (sure s) s))
 
   (* Balls of a set are settled: those that have changed, or one that may leave its safe region or meet a wall, and
      whoever has to look at these. They may get other safe regions, for which a search finds the neighbours, own times
-     and due times. Each pair of theirs is certified, or its event waits. *)
-  | settle s (set : body -> bool) f l n :
-      let s' := mkState _ (now s) f l (graph s) n (delivered s) (lived s) (stood s) in
+     and due times. Each pair of theirs is certified, or keeps its certificate, or its event waits. *)
+  | settle s (set : body -> bool) f l n v :
+      let s' := mkState _ (now s) f l (graph s) n v (delivered s) (lived s) (stood s) in
       (forall x, set x = false -> f x = balls s x) ->
       (forall x, set x = true ->
          there (f x) = there (balls s x) /\ revision (f x) = revision (balls s x) /\ known (f x) = known (balls s x)) ->
-      (forall x y, set x = false -> set y = false -> l x y = listed s x y /\ n x y = news s x y) ->
+      (forall x y, set x = false -> set y = false -> l x y = listed s x y /\ n x y = news s x y /\ v x y = sure s x y) ->
       (* H: each gets an own time, and is due no later. *)
       (forall x, set x = true -> clean s' x ->
          no_later (due (f x)) (second (f x)) /\ no_later (second (f x)) (own (f x)) /\
          exists p u, known (f x) = Some p /\ stays (held (f x)) p (now s) u /\ no_later (own (f x)) u /\
-           (n x x \/ exists v, clears_walls (graph s x x) p (now s) v /\ no_later (own (f x)) v)) ->
+           (n x x \/ exists w, clears_walls (graph s x x) p (now s) w /\ no_later (own (f x)) w)) ->
       (* N: whoever is not found is out of reach. *)
       (forall a b, (a < b)%nat -> set a = true \/ set b = true -> clean s' a -> clean s' b ->
          l a b \/ out_of_reach (held (f a)) (held (f b)) \/ strangers (motion_of s a) (motion_of s b)) ->
-      (* D: all neighbours, and all that touch or sense each other, are scanned. *)
+      (* D: all neighbours, and all that touch or sense each other, are scanned, by one of the two: by this one, or the
+         other has done so before. *)
       (forall a b, (a < b)%nat -> set a = true \/ set b = true -> clean s' a -> clean s' b -> concerned s' a b ->
-         n a b \/ certified s' a b) ->
+         n a b \/ certified s' a b \/ keep_certificate s s' a b) ->
       step s s'
 
   (* The pair that is due is rechecked: it is certified anew, or its event waits. A contact may end without an event
      (ContactRule::Change::release). *)
-  | recheck s a b ka kb r n :
+  | recheck s a b ka kb r n v :
       (a < b)%nat -> postponed (balls s a) ka b -> postponed (balls s b) kb a ->
-      same_but a b r (graph s) -> same_but a b n (news s) -> only_ends (graph s a b) (r a b) ->
-      let s' := set_balls (fun x => if x =? a then ka else if x =? b then kb else balls s x) (set_pairs r n s) in
+      same_but a b r (graph s) -> same_but a b n (news s) -> same_but a b v (sure s) -> only_ends (graph s a b) (r a b) ->
+      let s' := set_balls (fun x => if x =? a then ka else if x =? b then kb else balls s x) (set_pairs r n v s) in
       n a b \/ certified s' a b ->
       step s s'
 
@@ -185,12 +196,12 @@ Inductive step : state -> state -> Prop :=
      relation. The pair is looked at again before time moves on. *)
   | deliver s a b r :
       (a <= b)%nat -> news s a b -> same_but a b r (graph s) ->
-      step s (deliver_event a b (r a b) (set_pairs r (news s) s))
+      step s (deliver_event a b (r a b) (set_pairs r (news s) (sure s) s))
 
   (* A pending event of a body that has become dirty is dropped. *)
   | drop_news s a b n :
       (a <= b)%nat -> ~ (clean s a /\ clean s b) -> same_but a b n (news s) ->
-      step s (set_pairs (graph s) n s)
+      step s (set_pairs (graph s) n (sure s) s)
 
   (* Time moves on, at most to the earliest due time. No body is dirty, and no event waits. *)
   | advance s t :
@@ -199,7 +210,7 @@ Inductive step : state -> state -> Prop :=
       (forall a b, (a <= b)%nat -> clean s a -> clean s b -> ~ news s a b) ->
       (forall a, clean s a -> reaches t (due (balls s a))) ->
       step s
-        (mkState _ t (balls s) (listed s) (graph s) (news s) (delivered s)
+        (mkState _ t (balls s) (listed s) (graph s) (news s) (sure s) (delivered s)
            (fun a u e => lived s a u e \/
                          (there (balls s a) = true /\ now s <= u < t /\ e = revision (balls s a)))
            (fun a b u r => stood s a b u r \/ (now s <= u < t /\ r = graph s a b))).

@@ -29,7 +29,7 @@ Record keeps (s : state) : Prop := {
     listed s a b \/ out_of_reach (held (balls s a)) (held (balls s b)) \/ strangers (motion_of s a) (motion_of s b);
   (* D *)
   one_is_due_in_time : forall a b, (a < b)%nat -> clean s a -> clean s b -> concerned s a b ->
-    news s a b \/ right_until s a b (answers_until (balls s a) b) \/ right_until s a b (answers_until (balls s b) a);
+    news s a b \/ (right_until s a b (sure s a b) /\ one_is_due s a b);
   past_is_right : nothing_missed s;
   past_is_past : (forall a t e, lived s a t e -> t < now s) /\ (forall a b t r, stood s a b t r -> t < now s)
 }.
@@ -41,24 +41,13 @@ Proof. unfold no_later. auto. Qed.
 
 Lemma answers_later k b : no_later (due k) (second k) -> no_later (due k) (answers_until k b).
 Proof. unfold answers_until. destruct (is_about k b); [intros _; apply no_later_refl|trivial]. Qed.
-Lemma answers_in_time k b :
-  no_later (due k) (second k) -> no_later (second k) (own k) -> no_later (answers_until k b) (own k).
-Proof. unfold answers_until. intros D S. destruct (is_about k b); [eapply no_later_trans; eassumption|exact S]. Qed.
 
 (* A certified pair has what D asks for. *)
 Lemma certified_is_right s a b :
   (forall x p, known (balls s x) = Some p -> keeps_to (motion_of s x) p (now s)) ->
-  (forall x, clean s x ->
-    no_later (due (balls s x)) (second (balls s x)) /\ no_later (second (balls s x)) (own (balls s x))) ->
-  clean s a -> clean s b -> certified s a b ->
-  right_until s a b (answers_until (balls s a) b) \/ right_until s a b (answers_until (balls s b) a).
+  certified s a b -> right_until s a b (sure s a b) /\ one_is_due s a b.
 Proof.
-  intros B T Ca Cb (p & q & u & Kp & Kq & Ce & E).
-  destruct (T a Ca) as [Da Sa], (T b Cb) as [Db Sb].
-  assert (Q : forall v, no_later v u -> right_until s a b v).
-  { intros v V t Nt Bt. eapply certificates_are_early; eauto. }
-  destruct E as [E|[E|[E|E]]]; [left|right|left|right]; apply Q; try exact E; eapply no_later_trans; try exact E;
-    apply answers_in_time; assumption.
+  intros B [(p & q & Kp & Kq & Ce) E]. split; [|exact E]. intros t Nt Bt. eapply certificates_are_early; eauto.
 Qed.
 
 (* What a pair that nobody looks at relies upon. *)
@@ -71,24 +60,15 @@ Proof.
   eapply searches_are_complete; [exact H| |]; apply (lies_in_its_region _ K); assumption.
 Qed.
 
-(* A pair whose two balls are as they were keeps what it has. *)
-Lemma same_pair s s' a b :
-  (a < b)%nat -> now s' = now s -> balls s' a = balls s a -> balls s' b = balls s b ->
-  graph s' a b = graph s a b ->
-  forall u, right_until s a b u -> right_until s' a b u.
-Proof.
-  intros Lt N Ea Eb G u H t Nt Bt. unfold right_at, motion_of. rewrite Ea, Eb, G. apply H; [congruence|exact Bt].
-Qed.
-
 (* After a step that makes one ball dirty or removes it, and changes no pairs but its own. *)
 Lemma changed_keeps s a th di k r n :
   keeps s -> (th = true -> di = true) ->
   (forall p, k = Some p -> keeps_to (a, S (revision (balls s a))) p (now s)) ->
   same_but_of a r (graph s) -> same_but_of a n (news s) ->
-  keeps (set_balls (put s a (changed (balls s a) th di k)) (set_pairs r n s)).
+  keeps (set_balls (put s a (changed (balls s a) th di k)) (set_pairs r n (sure s) s)).
 Proof.
   intros K Td Kn Gr Ne. destruct K as [B T H M N D P Pp].
-  assert (Nc : forall x, clean (set_balls (put s a (changed (balls s a) th di k)) (set_pairs r n s)) x ->
+  assert (Nc : forall x, clean (set_balls (put s a (changed (balls s a) th di k)) (set_pairs r n (sure s) s)) x ->
                  x <> a /\ clean s x).
   { intros x [Tx Dx]. simpl in *. at_ball x a; [rewrite Td in Dx by exact Tx; discriminate|]. split; [assumption|split; assumption]. }
   assert (E : forall x, x <> a -> put s a (changed (balls s a) th di k) x = balls s x).
@@ -101,8 +81,9 @@ Proof.
   - intros x y Lt Cx Cy. destruct (Nc x Cx) as [X Cx'], (Nc y Cy) as [Y Cy']. unfold motion_of; simpl.
     rewrite !E by assumption. apply N; assumption.
   - intros x y Lt Cx Cy. destruct (Nc x Cx) as [X Cx'], (Nc y Cy) as [Y Cy']. unfold concerned; simpl.
-    rewrite !E, Ne, Gr by assumption. intros Co. destruct (D x y Lt Cx' Cy' Co) as [F|[F|F]]; [left; exact F| |]; right;
-      [left|right]; intros t Nt Bt; unfold right_at, motion_of; simpl; rewrite !E, Gr by assumption; apply F; assumption.
+    rewrite Ne, Gr by assumption. intros Co. destruct (D x y Lt Cx' Cy' Co) as [F|[F I]]; [left; exact F|right]. split.
+    + intros t Nt Bt. unfold right_at, motion_of. simpl. rewrite !E, Gr by assumption. apply F; assumption.
+    + unfold one_is_due in *. simpl in *. rewrite (E x X), (E y Y) in *. exact I.
   - exact P.
   - exact Pp.
 Qed.
@@ -111,7 +92,7 @@ Lemma step_keeps s s' : step s s' -> keeps s -> keeps s'.
 Proof.
   intros St K. destruct St as
     [s a p Ob | s a k r n Kn G Ne Oe | s a r n G Ne Oe
-    | s set f l n s' Fx Fs Fl Ho Nb Dd | s a b ka kb r n Lt Pa Pb G Ne Oe s' Ce
+    | s set f l n v s' Fx Fs Fl Ho Nb Dd | s a b ka kb r n v Lt Pa Pb G Ne Sv Oe s' Ce
     | s a b r Le Nw G | s a b n Le Nc Ne | s t Nt Cl Ns Du].
   - (* report *)
     destruct K as [B T H M N D P Pp].
@@ -133,8 +114,8 @@ Proof.
     + intros x C. rewrite Em. destruct (E x) as (_ & _ & _ & _ & -> & _). apply M, Ec, C.
     + intros x y Lt Cx Cy. rewrite !Em. destruct (E x) as (_ & _ & _ & -> & _), (E y) as (_ & _ & _ & -> & _).
       apply N; [exact Lt|apply Ec, Cx|apply Ec, Cy].
-    + intros x y Lt Cx Cy Co. rewrite !Ea. unfold right_until, right_at. simpl.
-      setoid_rewrite Em. apply D; [exact Lt|apply Ec, Cx|apply Ec, Cy|exact Co].
+    + intros x y Lt Cx Cy Co. unfold one_is_due, right_until, right_at. simpl. rewrite !Ea.
+      destruct (E x) as (_ & _ & _ & _ & -> & _), (E y) as (_ & _ & _ & _ & -> & _). setoid_rewrite Em. apply D; [exact Lt|apply Ec, Cx|apply Ec, Cy|exact Co].
     + exact P.
     + exact Pp.
   - apply changed_keeps; trivial; auto.
@@ -163,20 +144,23 @@ Proof.
         eapply regions_hold; [exact Sy|apply (B' x p); exact Kp|exact Nt|apply Ou; exact Bt].
       * rewrite Em. unfold s' in *. simpl in *. rewrite (Fx x S) in *. apply H; trivial. apply Ec; assumption.
     + intros x C. destruct (set x) eqn:S.
-      * destruct (Ho x S C) as (_ & _ & p & u & Kp & _ & _ & [Q|(v & Cw & Ov)]); [left; exact Q|right].
+      * destruct (Ho x S C) as (_ & _ & p & u & Kp & _ & _ & [Q|(w & Cw & Ov)]); [left; exact Q|right].
         intros t Nt Bt. unfold s' in *. simpl in *.
         eapply walls_are_clear; [exact Cw|apply (B' x p); exact Kp|exact Nt|apply Ov; exact Bt].
-      * rewrite Em. unfold s' in *. simpl in *. destruct (Fl x x S S) as [_ ->]. rewrite (Fx x S) in *.
+      * rewrite Em. unfold s' in *. simpl in *. destruct (Fl x x S S) as (_ & -> & _). rewrite (Fx x S) in *.
         apply M, Ec; assumption.
     + intros x y Lt Cx Cy. rewrite !Em. destruct (set x || set y) eqn:S.
       * apply orb_true_iff in S. unfold s'. simpl. apply Nb; assumption.
-      * apply orb_false_iff in S. destruct S as [Sx Sy]. unfold s'. simpl. destruct (Fl x y Sx Sy) as [-> _].
+      * apply orb_false_iff in S. destruct S as [Sx Sy]. unfold s'. simpl. destruct (Fl x y Sx Sy) as (-> & _).
         rewrite (Fx x Sx), (Fx y Sy). apply N; trivial; apply Ec; assumption.
     + intros x y Lt Cx Cy Co. destruct (set x || set y) eqn:S.
-      * apply orb_true_iff in S. destruct (Dd x y Lt S Cx Cy Co) as [Q|Q]; [left; exact Q|right].
-        apply certified_is_right; assumption.
-      * apply orb_false_iff in S. destruct S as [Sx Sy]. revert Co. unfold concerned, right_until, right_at. rewrite !Em. unfold s'. simpl.
-        destruct (Fl x y Sx Sy) as [-> ->]. rewrite (Fx x Sx), (Fx y Sy). apply D; trivial; apply Ec; assumption.
+      * apply orb_true_iff in S. destruct (Dd x y Lt S Cx Cy Co) as [Q|[Q|Q]]; [left; exact Q|right|right].
+        { apply certified_is_right; assumption. }
+        destruct Q as (Cx' & Cy' & Co' & Nn & Es & I). split; [|exact I].
+        destruct (D x y Lt Cx' Cy' Co') as [Q|[Q _]]; [contradiction|].
+        rewrite Es. unfold right_until, right_at. rewrite !Em. exact Q.
+      * apply orb_false_iff in S. destruct S as [Sx Sy]. revert Co. unfold concerned, one_is_due, right_until, right_at. rewrite !Em. unfold s'. simpl.
+        destruct (Fl x y Sx Sy) as (-> & -> & ->). rewrite (Fx x Sx), (Fx y Sy). apply D; trivial; apply Ec; assumption.
     + exact P.
     + exact Pp.
   - (* recheck *)
@@ -231,8 +215,9 @@ Proof.
       all: assert (Np : ~ (x = a /\ y = b)) by tauto.
       all: assert (Ax : answers_until (balls s' x) y = answers_until (balls s x) y) by (apply Ea; [exact Cx|tauto|lia]).
       all: assert (Ay : answers_until (balls s' y) x = answers_until (balls s y) x) by (apply Ea; [exact Cy|lia|tauto]).
-      all: rewrite Ax, Ay; revert Co; unfold concerned, right_until, right_at; rewrite !Em; unfold s'; simpl;
-           rewrite G, Ne by exact Np; intros Co; apply D; trivial; apply Ec; assumption.
+      all: revert Co; unfold concerned, one_is_due, right_until, right_at; rewrite Ax, Ay, !Em;
+           destruct (E x) as (_ & _ & _ & _ & _ & -> & _), (E y) as (_ & _ & _ & _ & _ & -> & _); unfold s'; simpl;
+           rewrite G, Ne, Sv by exact Np; intros Co; apply D; trivial; apply Ec; assumption.
     + exact P.
     + exact Pp.
   - (* deliver *)
@@ -242,7 +227,7 @@ Proof.
       all: rewrite G by tauto; apply M; exact C.
     + intros x y Lxy Cx Cy Co. destruct (Nat.eq_dec x a) as [Ex|Nx], (Nat.eq_dec y b) as [Ey|Ny].
       { left. subst x y. exact Nw. }
-      all: assert (Np : ~ (x = a /\ y = b)) by tauto; revert Co; unfold concerned, right_until, right_at; simpl;
+      all: assert (Np : ~ (x = a /\ y = b)) by tauto; revert Co; unfold concerned, one_is_due, right_until, right_at; simpl;
            rewrite G by exact Np; intros Co; apply D; trivial.
   - (* drop_news *)
     destruct K as [B T H M N D P Pp]. split; simpl; try assumption.
@@ -257,11 +242,9 @@ Proof.
     assert (Right : forall a b u, (a < b)%nat -> clean s a -> clean s b -> now s <= u < t -> right_at s a b u).
     { intros a b u Lt Ca Cb U. destruct (Later a u Ca U) as [Da Oa], (Later b u Cb U) as [Db Ob].
       destruct (classic (concerned s a b)) as [Co|Co].
-      - destruct (T a Ca) as [Qa _], (T b Cb) as [Qb _].
-        destruct (D a b Lt Ca Cb Co) as [F|[F|F]].
+      - destruct (T a Ca) as [Qa _], (T b Cb) as [Qb _]. destruct (D a b Lt Ca Cb Co) as [F|[F I]].
         + elim (Ns a b ltac:(lia) Ca Cb F).
-        + apply F; [lra|]. apply answers_later; assumption.
-        + apply F; [lra|]. apply answers_later; assumption.
+        + apply F; [lra|]. destruct I as [I|[I|[I|I]]]; apply I; trivial; apply answers_later; assumption.
       - unfold concerned in Co. apply unlisted_is_right; trivial; try lra.
         + split; assumption.
         + tauto.
@@ -270,8 +253,8 @@ Proof.
     + intros a p Kp. eapply bounds_last; [apply B; exact Kp|exact Nt].
     + intros a u C Nu. apply H; [exact C|lra].
     + intros a C. destruct (M a C) as [Q|Q]; [left; exact Q|right]. intros u Nu. apply Q. lra.
-    + intros a b Lt Ca Cb Co. destruct (D a b Lt Ca Cb Co) as [F|[F|F]]; [left; exact F| |]; right; [left|right];
-        intros u Nu; apply F; simpl in Nu; lra.
+    + intros a b Lt Ca Cb Co. destruct (D a b Lt Ca Cb Co) as [F|[F I]]; [left; exact F|right]. split; [|exact I].
+      intros u Nu. apply F. simpl in Nu. lra.
     + destruct P as [P1 P2]. split; simpl.
       * intros a b u e f r Lt [Ha|(Ta & Ua & ->)] [Hb|(Tb & Ub & ->)] [Hr|[Ur ->]].
         { eapply P1; eassumption. }
@@ -344,7 +327,7 @@ Proof.
   intros St [B S]. assert (E : forall r, only_ends r r) by apply nothing_ends.
   destruct St as
     [s a p Ob | s a k r n Kn G Ne Oe | s a r n G Ne Oe
-    | s set f l n s' Fx Fs Fl Ho Nb Dd | s a b ka kb r n Lt Pa Pb G Ne Oe s' Ce
+    | s set f l n v s' Fx Fs Fl Ho Nb Dd | s a b ka kb r n v Lt Pa Pb G Ne Sv Oe s' Ce
     | s a b r Le Nw G | s a b n Le Nc Ne | s t Nt Cl Ns Du]; split;
     try exact S; try exact B; simpl.
   1-2: intros x y; eapply reported_later; [apply B|auto|simpl; lra|apply Oe].
