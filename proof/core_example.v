@@ -106,6 +106,7 @@ Proof.
     + left. reflexivity.
     + intros x y _. reflexivity.
     + intros x y Ot. apply (not_the_two True False x y Ot).
+    + intros x y _. reflexivity.
     + left. exact I.
   - apply (deliver seen 0%nat 1%nat (in_the_graph touching)); simpl; auto.
     + exact I.

@@ -284,6 +284,39 @@ Proof.
   - split; [intros a t e H; elim (Lv _ _ _ H)|intros a b t r H; elim (St _ _ _ _ H)].
 Qed.
 
+(* Who looks out for whom: of two, the one that has changed last, by counts of changes; of two with the same count, as
+   those that change together may have, the one with the higher number. *)
+Definition looks_out (count : body -> nat) (a b : body) : Prop :=
+  (count b < count a)%nat \/ (count a = count b /\ (b < a)%nat).
+Definition pair_of (P : body -> body -> Prop) (a b : body) : Prop := P (Nat.min a b) (Nat.max a b).
+
+(* It is enough for D that each ball of the set scans those that it looks out for. Balls that have changed (`noted`) count
+   as later than their neighbours outside of the set; of the others, whoever looks out for them answers as before. *)
+Theorem scans_by_counts_are_enough s s' (set noted : body -> bool) count :
+  (forall a b, noted a = true -> set b = false -> pair_of (concerned s') a b -> (count b < count a)%nat) ->
+  (forall a b, set a = true -> pair_of (concerned s') a b -> looks_out count a b ->
+     pair_of (fun a b => news s' a b \/ certified s' a b) a b) ->
+  (forall a b, set a = true -> noted a = false -> set b = false -> pair_of (concerned s') a b -> looks_out count b a ->
+     pair_of (keep_certificate s s') a b) ->
+  forall a b, (a < b)%nat -> set a = true \/ set b = true -> concerned s' a b ->
+  news s' a b \/ certified s' a b \/ keep_certificate s s' a b.
+Proof.
+  intros Last Scan Kept.
+  assert (One : forall a b, a <> b -> set a = true -> pair_of (concerned s') a b ->
+    pair_of (fun a b => news s' a b \/ certified s' a b \/ keep_certificate s s' a b) a b).
+  { intros a b Ne Sa Co. assert (Or : looks_out count a b \/ looks_out count b a) by (unfold looks_out; lia).
+    destruct Or as [Lo|Lo]; [destruct (Scan a b Sa Co Lo); unfold pair_of; tauto|].
+    destruct (set b) eqn:Sb.
+    - assert (Co' : pair_of (concerned s') b a) by (unfold pair_of; rewrite Nat.min_comm, Nat.max_comm; exact Co).
+      generalize (Scan b a Sb Co' Lo). unfold pair_of. rewrite Nat.min_comm, Nat.max_comm. tauto.
+    - destruct (noted a) eqn:No; [generalize (Last a b No Sb Co); unfold looks_out in Lo; lia|].
+      right. right. exact (Kept a b Sa No Sb Co Lo). }
+  intros a b Lt S Co. assert (Mi : Nat.min a b = a) by lia. assert (Ma : Nat.max a b = b) by lia.
+  destruct S as [S|S].
+  - generalize (One a b ltac:(lia) S). unfold pair_of. rewrite Mi, Ma. tauto.
+  - generalize (One b a ltac:(lia) S). unfold pair_of. rewrite (Nat.min_comm b), (Nat.max_comm b), Mi, Ma. tauto.
+Qed.
+
 (* H, N and D hold in each reachable state. *)
 Theorem core_keeps_its_invariants s : reachable s -> keeps s.
 Proof. induction 1; [apply empty_keeps; assumption|eapply step_keeps; eauto]. Qed.
