@@ -88,21 +88,6 @@ class QuickReject {
     return !(norm_squared(offset_) > radii * radii);
   }
 
-  /// Returns a time d before which the bodies stay within `distance`, less the margin, of each other; 0 if
-  /// that is unknown. Precondition: they go straight on relative to each other, and do not grow. The distance
-  /// of two such points is a convex function (two_that_go_straight_stay_within): a time is guessed, and then
-  /// tried.
-  double parting(double distance, double margin) const {
-    const double reach = radii_ + distance - margin;
-    const double room = reach * reach - norm_squared(offset_);
-    const double speed = norm_squared(velocity_), rise = dot(offset_, velocity_);
-    if (!(reach > 0.0 && room > 0.0)) return 0.0;
-    if (velocity_ == Vec3{}) return std::numeric_limits<double>::infinity();
-    const double root = std::sqrt(rise * rise + speed * room);
-    const double d = (1.0 - 0x1p-40) * (rise > 0.0 ? room / (rise + root) : (root - rise) / speed);
-    return norm_squared(offset_ + velocity_ * d) < (1.0 - 0x1p-44) * (reach * reach) ? d : 0.0;
-  }
-
   /// Returns a time d before which the bodies cannot come within `margin`; +infinity if they cannot within
   /// `duration`.
   double meeting(double duration, double margin) const {

@@ -19,6 +19,21 @@
 
 namespace kinesphere {
 
+/// Returns the threshold of the contact of two bodies, of which these events are asked for. `state`: nullptr
+/// if they do not touch.
+inline Threshold contact_threshold(const ContactState* state, ContactEvents wanted) {
+  return {.within = state != nullptr, .wanted = wanted, .state = state != nullptr ? *state : ContactState{}};
+}
+
+/// What links two bodies: that they touch, sense each other, or have been turned back at a sensor distance.
+struct PairLinks {
+  const ContactState* contact;    ///< nullptr if they do not touch
+  OverlapRecords::List overlaps;  ///< by falling distance
+  double turned_at;               ///< PairNote::turned_at
+
+  bool any() const { return contact != nullptr || !overlaps.empty() || turned_at >= 0.0; }
+};
+
 class ContactGraph {
  public:
   explicit ContactGraph(const WorldDefinition& definition) : rule_(definition), space_(definition) {}
@@ -63,11 +78,6 @@ class ContactGraph {
   std::span<const ContactRecord> partners_of(std::uint32_t body) const {
     return body < partners_.size() ? partners_[body].all() : std::span<const ContactRecord>();
   }
-  /// Returns the threshold of a contact between two bodies that ask for these events.
-  Threshold contact_threshold(std::uint32_t a, std::uint32_t b, ContactEvents wanted) const {
-    const ContactState* const state = contact_of(a, b);
-    return {.within = state != nullptr, .wanted = wanted, .state = state ? *state : ContactState{}};
-  }
   /// Returns the threshold of a contact between a body and a wall.
   Threshold wall_threshold(std::uint32_t body, Wall wall, ContactEvents wanted) const {
     return {.within = touches_wall(body, wall), .wanted = wanted, .state = wall_state(body, wall)};
@@ -75,8 +85,8 @@ class ContactGraph {
   /// Returns the threshold of the contact that the event names.
   Threshold threshold_of(const Event& contact, ContactEvents wanted) const {
     const std::uint32_t first = number_of(contact.first);
-    return contact.wall == Wall::none ? contact_threshold(first, number_of(contact.second), wanted)
-                                      : wall_threshold(first, contact.wall, wanted);
+    if (contact.wall != Wall::none) return wall_threshold(first, contact.wall, wanted);
+    return contact_threshold(contact_of(first, number_of(contact.second)), wanted);
   }
   /// Returns a set of wall_bit() values.
   std::uint8_t walls_of(std::uint32_t body) const { return flags_[body].walls; }
@@ -88,14 +98,9 @@ class ContactGraph {
   OverlapRecords::List overlaps_of(std::uint32_t a, std::uint32_t b) const {
     return flags_[a].is_static() ? overlaps_.of(b, a) : overlaps_.of(a, b);
   }
-  /// Returns true if the two are within a sensor distance. Cost: that of overlaps_of(a, b), or O(1) if the
-  /// body that would be searched has no overlaps.
-  bool overlap(std::uint32_t a, std::uint32_t b) const {
-    return !overlaps_.of(flags_[a].is_static() ? b : a).empty() && !overlaps_of(a, b).empty();
-  }
-  /// Returns true if the two touch, sense each other, or have been turned back at a sensor distance.
-  bool are_linked(std::uint32_t a, std::uint32_t b) const {
-    return touch(a, b) || overlap(a, b) || pairs_.between(a, b).is_turned();
+  /// Returns what links two bodies, valid until that changes. Cost: that of overlaps_of(a, b).
+  PairLinks links_of(std::uint32_t a, std::uint32_t b) const {
+    return {contact_of(a, b), overlaps_of(a, b), pairs_.between(a, b).turned_at};
   }
   /// Returns what is remembered of pairs beside.
   const PairNotes& pairs() const { return pairs_; }

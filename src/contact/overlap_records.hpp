@@ -41,13 +41,14 @@ class OverlapRecords {
 
   /// Returns the overlaps of a body. Invalidated when a list changes.
   List of(std::uint32_t body) const { return body < lists_.size() ? List(lists_[body]) : List(); }
-  /// Returns the overlaps with one partner. Cost: O(log n) for a list of n, as for contains().
+  /// Returns the overlaps with one partner. Cost: O(log n) for a list of n, as for contains(), and the number
+  /// of these.
   List of(std::uint32_t body, std::uint32_t partner) const {
     const List all = of(body);
     const auto begin = std::partition_point(all.begin(), all.end(),
                                             [=](const OverlapRecord& one) { return one.partner < partner; });
-    const auto end = std::partition_point(begin, all.end(),
-                                          [=](const OverlapRecord& one) { return one.partner == partner; });
+    auto end = begin;
+    while (end != all.end() && end->partner == partner) ++end;
     return {begin, end};
   }
   bool contains(std::uint32_t body, const OverlapRecord& overlap) const {

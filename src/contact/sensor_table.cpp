@@ -52,10 +52,12 @@ bool SensorTable::senses(const Sensing& a, const Sensing& b, double distance) co
 
 void SensorTable::sort() {
   sorted_.resize(sensors_.size());
+  distance_count_ = 0;
   for (std::size_t k = 0; k < sensors_.size(); ++k) {
     sorted_[k] = sensors_[k].distances;
     std::sort(sorted_[k].begin(), sorted_[k].end(), is_farther);
     sorted_[k].erase(std::unique(sorted_[k].begin(), sorted_[k].end()), sorted_[k].end());
+    distance_count_ += sorted_[k].size();
   }
 }
 

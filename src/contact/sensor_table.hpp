@@ -29,6 +29,8 @@ class SensorTable {
   const Sensor& of(SensorClass sensor_class) const;
   /// False if no class has ever had a distance.
   bool any() const { return any_; }
+  /// Returns the number of distances of all classes together. A pair crosses no more.
+  std::size_t distance_count() const { return distance_count_; }
   double reach(SensorClass sensor_class) const {
     const Distances all = distances_of(sensor_class);
     return all.empty() ? 0.0 : all.front();
@@ -46,7 +48,7 @@ class SensorTable {
 
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
-    auto& [sensors, sorted, any] = self;
+    auto& [sensors, sorted, any, distance_count] = self;
     archive(sensors, any);
     if constexpr (std::same_as<Archive, HeapCounter>)
       archive(sorted);
@@ -71,6 +73,7 @@ class SensorTable {
   /// By sensor class: distances from large to small, without duplicates.
   std::vector<std::vector<double>> sorted_;
   bool any_ = false;
+  std::size_t distance_count_ = 0;
 };
 
 }  // namespace kinesphere

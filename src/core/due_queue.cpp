@@ -19,6 +19,7 @@ void DueQueue::push(std::span<const Ball> balls, std::uint32_t ball) {
   if (bucket <= bucket_) {
     const Entry entry{time, ball};
     const auto later = [](const Entry& a, const Entry& b) { return b < a; };
+    ++entered_;
     present_.insert(std::lower_bound(present_.begin(), present_.end(), entry, later), entry);
     return;
   }
@@ -84,10 +85,9 @@ DueQueue::Entry DueQueue::first(std::span<const Ball> balls, double until) {
 
 /// Enters a ball as push() does, if it is due at present at the end of the entries.
 void DueQueue::push_unsorted(std::span<const Ball> balls, std::uint32_t ball) {
-  if (bucket_of(balls[ball].due) <= bucket_)
-    present_.push_back({balls[ball].due, ball});
-  else
-    push(balls, ball);
+  if (bucket_of(balls[ball].due) > bucket_) return push(balls, ball);
+  ++entered_;
+  present_.push_back({balls[ball].due, ball});
 }
 
 void DueQueue::sort_present() {
@@ -124,7 +124,7 @@ void DueQueue::open_next(std::span<const Ball> balls, double until) {
   }
   sort_present();
   if ((bucket_ & (heads_.size() / 2 - 1)) == 0 || stored_ == 0) take_far(balls, until);
-  if (bucket_ - adapted_ >= 256) adapt(balls);
+  if (bucket_ - adapted_ >= 256 || static_cast<double>(entered_) >= 256.0 * most_in_bucket) adapt(balls);
 }
 
 /// Puts the balls that are due within the ring by now into their buckets. If the ring is empty, goes on to
@@ -152,14 +152,17 @@ void DueQueue::take_far(std::span<const Ball> balls, double until) {
   far_.resize(kept);
 }
 
+/// Makes buckets so wide that they hold about as many entries as wanted, if they do not.
 void DueQueue::adapt(std::span<const Ball> balls) {
-  const double by_bucket = static_cast<double>(taken_) / static_cast<double>(bucket_ - adapted_);
-  const bool few = taken_ < balls.size() / 4 && bucket_ - adapted_ < 2 * heads_.size();
+  const bool few = entered_ < balls.size() / 4 && bucket_ - adapted_ < 2 * heads_.size();
   if (few) return;
-  taken_ = 0;
+  const double by_bucket = static_cast<double>(entered_) / static_cast<double>(bucket_ - adapted_);
+  entered_ = 0;
   adapted_ = bucket_;
-  if (by_bucket < 2.5 * wanted && by_bucket > 0.3 * wanted) return;
-  refill(balls, origin_ + static_cast<double>(bucket_) * width_);
+  if (by_bucket < most_in_bucket && by_bucket > least_in_bucket) return;
+  const double now = origin_ + static_cast<double>(bucket_) * width_;
+  set_width(width_ * std::clamp(wanted / by_bucket, 0x1p-6, 0x1p6), now);
+  fill(balls, now);
 }
 
 /// Chooses the width of buckets from the quarter of the balls that is due first. Those that are due at once
@@ -168,23 +171,31 @@ void DueQueue::choose_width(std::span<const Ball> balls, double now) {
   std::vector<double> times;
   for (const Ball& ball : balls)
     if (ball.has_region() && ball.due > now && ball.due < infinity) times.push_back(ball.due - now);
-  width_ = 1.0;
+  double width = 1.0;
   if (!times.empty()) {
     const std::size_t part = times.size() / 4;
     std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(part), times.end());
-    const double width = times[part] * wanted / (static_cast<double>(part) + 1.0);
-    // Not so narrow that times are not told apart.
-    width_ = std::max(width, 0x1p-40 * std::max(1e-30, std::abs(now)));
+    width = times[part] * wanted / (static_cast<double>(part) + 1.0);
   }
+  set_width(width, now);
+}
+
+/// Sets the width of buckets, but not so narrow that times are not told apart.
+void DueQueue::set_width(double width, double now) {
+  width_ = std::max(width, 0x1p-40 * std::max(1e-30, std::abs(now)));
   by_width_ = 1.0 / width_;
 }
 
 void DueQueue::refill(std::span<const Ball> balls, double now) {
+  choose_width(balls, now);
+  fill(balls, now);
+}
+
+void DueQueue::fill(std::span<const Ball> balls, double now) {
   const auto buckets = static_cast<std::size_t>(static_cast<double>(balls.size()) / wanted);
   heads_.assign(std::bit_ceil(std::max<std::size_t>(buckets, 256)), none);
-  choose_width(balls, now);
   origin_ = now;
-  bucket_ = adapted_ = taken_ = stored_ = 0;
+  bucket_ = adapted_ = entered_ = stored_ = 0;
   present_.clear();
   far_.clear();
   chunks_.clear();

@@ -46,7 +46,6 @@ class DueQueue {
   std::uint32_t take_first() {
     const std::uint32_t ball = present_.back().ball;
     present_.pop_back();
-    ++taken_;
     return ball;
   }
   /// Returns a ball that is due soon after the first one, to prefetch; `none` if none is known.
@@ -65,7 +64,9 @@ class DueQueue {
     std::uint32_t count;
     std::uint32_t next;
   };
-  static constexpr double wanted = 16.0;  ///< balls due in a bucket
+  /// Entries of a bucket, with those that are stale: as many as wanted, and the numbers from which on buckets
+  /// become narrower or wider.
+  static constexpr double wanted = 16.0, most_in_bucket = 2.5 * wanted, least_in_bucket = 0.3 * wanted;
   /// Numbers of buckets beyond this are not told apart.
   static constexpr double last_bucket = 0x1p62;
 
@@ -97,6 +98,8 @@ class DueQueue {
   void open_next(std::span<const Ball> balls, double until);
   void take_far(std::span<const Ball> balls, double until);
   void choose_width(std::span<const Ball> balls, double now);
+  void set_width(double width, double now);
+  void fill(std::span<const Ball> balls, double now);
   void adapt(std::span<const Ball> balls);
 
   double width_ = 0.0, by_width_ = 0.0;
@@ -108,7 +111,7 @@ class DueQueue {
   std::vector<Entry> present_;           ///< entries of the present bucket, the first one last
   std::vector<std::uint32_t> far_;       ///< balls that are due beyond the ring
   std::vector<std::uint32_t> entry_of_;  ///< by ball: the bucket of the entry that counts; others are stale
-  std::uint64_t taken_ = 0, adapted_ = 0, stored_ = 0;
+  std::uint64_t entered_ = 0, adapted_ = 0, stored_ = 0;
 };
 
 }  // namespace kinesphere::core

@@ -127,18 +127,12 @@ bool EventProcessor::answers_threads() const {
 
 void EventProcessor::linked_with(std::uint32_t ball, std::vector<std::uint32_t>& linked) {
   linked.clear();
+  for (const OverlapRecord& overlap : contacts().overlaps_of(ball))
+    if (linked.empty() || linked.back() != overlap.partner) linked.push_back(overlap.partner);
   for (const ContactRecord& contact : contacts().partners_of(ball)) linked.push_back(contact.partner);
-  const auto overlaps = contacts().overlaps_of(ball);
-  for (auto next = overlaps.begin(); next != overlaps.end();) {
-    const std::uint32_t partner = next->partner;
-    linked.push_back(partner);
-    next = std::partition_point(next, overlaps.end(),
-                                [=](const OverlapRecord& overlap) { return overlap.partner <= partner; });
-  }
   for (const PairNote& record : contacts().pairs().of(ball))
     if (record.is_turned()) linked.push_back(record.partner);
-  std::sort(linked.begin(), linked.end());
-  linked.erase(std::unique(linked.begin(), linked.end()), linked.end());
+  make_ascending(linked);
 }
 
 std::size_t EventProcessor::keep_partners(std::uint32_t ball, std::span<std::uint32_t> others) {
@@ -151,7 +145,8 @@ std::size_t EventProcessor::keep_partners(std::uint32_t ball, std::span<std::uin
 double EventProcessor::unchanged_until(std::uint32_t a, std::uint32_t b) {
   if (const double known = known_.find(bodies(), a, b); known > time_) return known;
   const PairCertifier certifier = this->certifier();
-  if (certifier.are_linked(a, b)) return certifier.unchanged_until_by_thresholds(a, b);
+  if (const PairLinks links = contacts().links_of(a, b); links.any())
+    return certifier.unchanged_until(a, b, links);
   const double until = certifier.apart_until(a, b);
   if (until <= time_) return certifier.bounce_apart(a, b) ? infinity : time_;
   if (bodies()[a].is_shaped() || bodies()[b].is_shaped())

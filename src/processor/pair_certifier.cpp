@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "bound/straight_pair.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -41,53 +42,55 @@ double PairCertifier::apart_until(std::uint32_t a, std::uint32_t b) const {
   if (!bodies()[a].is_shaped() && !bodies()[b].is_shaped() && end < infinity)
     return apart_until_in_order(a, b, end);
   if (const auto known = apart_by_balls(a, b, end)) return *known;
-  const double until = unchanged_until_by_thresholds(a, b);
+  const double until = unchanged_until(a, b, contacts().links_of(a, b));
   return until < end ? until : infinity;
 }
 
 /// Returns true for two balls in exact flight, straight on relative to each other, that sense each other and
 /// do not touch.
-bool PairCertifier::are_within_in_flight(std::uint32_t a, std::uint32_t b) const {
-  if (!bodies().sensors.any()) return false;
+bool PairCertifier::are_within_in_flight(std::uint32_t a, std::uint32_t b, const PairLinks& links) const {
+  if (links.overlaps.empty() || links.contact != nullptr) return false;
   const Body &one = bodies()[a], &other = bodies()[b];
   return one.bound.is_exact() && other.bound.is_exact() && !one.is_shaped() && !other.is_shaped() &&
-         one.bound.planned_acceleration == other.bound.planned_acceleration && !bodies().radii.any() &&
-         contacts().overlap(a, b) && !contacts().touch(a, b);
+         one.bound.planned_acceleration == other.bound.planned_acceleration && !bodies().radii.any();
 }
 
-/// Computes unchanged_until_by_thresholds() for two that are are_within_in_flight().
-double PairCertifier::within_in_flight_until(std::uint32_t a, std::uint32_t b) const {
+/// Computes unchanged_until() for two that are are_within_in_flight().
+double PairCertifier::within_in_flight_until(std::uint32_t a, std::uint32_t b, const PairLinks& links) const {
   if (bodies().table().comes_before(b, a)) std::swap(a, b);
-  const BoundAt one(bodies()[a].bound, time_);
-  BoundAt other(bodies()[b].bound, time_);
-  if (const Space& space = bodies().space(); space.repeats())
-    move_to_image(space, shift_to_meet(bodies(), a, b, time_), other);
-  const QuickReject pair(one, other);
-  const bool recede = recede_for_good(State{one.centre, one.velocity}, State{other.centre, other.velocity});
+  const Bound &one = bodies()[a].bound, &other = bodies()[b].bound;
+  const State first{one.centre_at(time_), one.velocity_at(time_)};
+  State second{other.centre_at(time_), other.velocity_at(time_)};
+  if (const Space& space = bodies().space(); space.repeats()) {
+    const Vec3 shift = shift_to_meet(bodies(), a, b, time_);
+    second.position += shift;
+    if (space.slides()) second.velocity += space.velocity_of(shift);
+  }
+  const StraightPair pair(second.position - first.position, second.velocity - first.velocity,
+                          one.radius + other.radius);
   const double margin = rounding_margin(bodies().definition()), tolerance = contacts().rule().tolerance();
-  double first = infinity;
-  for_each_threshold(a, b, [&](const Threshold& threshold) {
+  double until = infinity;
+  for_each_threshold(a, b, links, [&](const Threshold& threshold) {
     const auto stays_for = [&] {
       if (threshold.is_turned) return 0.0;
       if (threshold.within) return pair.parting(threshold.distance + contacts().rule().release_gap(), margin);
-      const bool is_near = pair.is_near(threshold.distance + tolerance);
-      if (!is_near) return pair.meeting(infinity, threshold.distance + margin);
+      if (!pair.are_near(threshold.distance + tolerance)) return pair.meeting(threshold.distance, margin);
       const bool only_approaches = !threshold.sensed && !wants_ends(threshold.wanted);
-      const bool may_be_inside = pair.is_near(threshold.distance - tolerance);
-      return only_approaches && recede && !may_be_inside ? infinity : 0.0;
+      const bool may_be_inside = pair.are_near(threshold.distance - tolerance);
+      return only_approaches && !may_be_inside && recede_for_good(first, second) ? infinity : 0.0;
     };
-    first = std::min(first, std::max(rounding::sum_down(time_, stays_for()), time_));
+    until = std::min(until, std::max(rounding::sum_down(time_, stays_for()), time_));
   });
-  return first;
+  return until;
 }
 
-double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {
-  if (are_within_in_flight(a, b)) return bodies().may_meet(a, b) ? within_in_flight_until(a, b) : infinity;
+double PairCertifier::unchanged_until(std::uint32_t a, std::uint32_t b, const PairLinks& links) const {
+  if (!bodies().may_meet(a, b)) return infinity;
+  if (are_within_in_flight(a, b, links)) return within_in_flight_until(a, b, links);
   const double end = earlier_own_time(a, b);
   double first = infinity;
-  if (!bodies().may_meet(a, b)) return first;
   visit_pair(bodies(), a, b, time_, [&](const Bound& bound, const auto& other) {
-    for_each_threshold(a, b, [&](const Threshold& threshold) {
+    for_each_threshold(a, b, links, [&](const Threshold& threshold) {
       const ContactPredictor predictor(contacts().rule(), threshold, bound, other, time_, {end, end});
       first = std::min(first, predictor.until_reports());
     });

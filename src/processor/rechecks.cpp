@@ -19,8 +19,8 @@ Result<std::optional<double>> EventProcessor::check_pair(std::uint32_t a, std::u
     const bool fresh = bodies()[a].fresh(time_) && bodies()[b].fresh(time_);
     if (fresh) return decide_pair(a, b);
     ++counters_of(a).certificates;
-    const double until = certifier.are_linked(a, b) ? certifier.unchanged_until_by_thresholds(a, b)
-                                                    : certifier.apart_until(a, b);
+    const PairLinks links = contacts().links_of(a, b);
+    const double until = links.any() ? certifier.unchanged_until(a, b, links) : certifier.apart_until(a, b);
     if (until > time_) return std::optional(until);
     if (auto probed = probe_stale_of(a, b); !probed) return probed.error();
   }
@@ -69,7 +69,7 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
   std::optional<double> next = infinity;
   Counters& work = counters_of(a);
   visit_pair(bodies(), a, b, time_, [&](const Bound& bound, const auto& partner) {
-    certifier.for_each_threshold(a, b, [&](Threshold threshold) {
+    certifier.for_each_threshold(a, b, contacts().links_of(a, b), [&](Threshold threshold) {
       ++work.certificates;
       if (threshold.is_turned) threshold.is_turned = !note_return(threshold, a, b);
       const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {until, end},

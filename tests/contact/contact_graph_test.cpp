@@ -128,7 +128,7 @@ TEST_F(ContactGraphTest, ResponseThatDoesNotPartTheTwoLetsThemThrough) {
   book.turn_reported(0);
   instant.queue(begin(0, 1));
   EXPECT_FALSE(deliver());
-  EXPECT_EQ(book.contact_threshold(0, 1, wanted).state.approach, ApproachState::reported);
+  EXPECT_EQ(contact_threshold(book.links_of(0, 1).contact, wanted).state.approach, ApproachState::reported);
 }
 
 TEST_F(ContactGraphTest, TurnsReportedApproachesOfABodyAndItsWalls) {
@@ -141,8 +141,8 @@ TEST_F(ContactGraphTest, TurnsReportedApproachesOfABodyAndItsWalls) {
   EXPECT_EQ(book.wall_threshold(0, Wall::x_lower, wanted).state.approach, ApproachState::reported);
   book.turn_reported(0);
   EXPECT_EQ(book.wall_threshold(0, Wall::x_lower, wanted).state.approach, ApproachState::turned);
-  EXPECT_EQ(book.contact_threshold(0, 1, wanted).state.approach, ApproachState::turned);
-  EXPECT_EQ(book.contact_threshold(1, 0, wanted).state.approach, ApproachState::turned);
+  EXPECT_EQ(contact_threshold(book.links_of(0, 1).contact, wanted).state.approach, ApproachState::turned);
+  EXPECT_EQ(contact_threshold(book.links_of(1, 0).contact, wanted).state.approach, ApproachState::turned);
   EXPECT_TRUE(book.is_valid(3, Box{{-1, -9, -9}, {9, 9, 9}}));
 }
 

@@ -93,7 +93,6 @@ TEST(NeighbourLists, TellWhoIsGoneAndWhoIsNew) {
   }
 }
 
-/// Balls are due in order of time and number, also where many are due at one time, or only far away.
 TEST(DueQueue, ForgetsAllUntilItIsFilledAnew) {
   std::vector<Ball> balls(100);
   for (std::uint32_t number = 0; number < 100; ++number) {
@@ -114,6 +113,42 @@ TEST(DueQueue, ForgetsAllUntilItIsFilledAnew) {
   EXPECT_EQ(queue.first(balls, 200.0).time, infinity) << "each once";
 }
 
+/// Balls that come to be due much more often than when buckets got their width: these become narrower, since
+/// each entry is put amid those of the present bucket.
+TEST(DueQueue, KeepsFewEntriesInOrder) {
+  constexpr std::uint32_t count = 4096;
+  Random random(seed);
+  std::vector<Ball> balls(count);
+  for (Ball& ball : balls) {
+    ball.due = random.uniform(0.0, 1000.0);
+    ball.slot = 0;
+  }
+  DueQueue queue;
+  queue.refill(balls, 0.0);
+  const auto turn = [&](double now) {
+    const std::uint32_t ball = queue.take_first();
+    balls[ball].due = now + random.uniform(0.5, 1.0);
+    queue.push(balls, ball);
+  };
+  const auto in_order = [&] {
+    std::size_t entries = 0;
+    while (queue.coming(entries) != core::none) ++entries;
+    return entries;
+  };
+  for (std::uint32_t ball = 0; ball < count; ++ball) {
+    balls[ball].due = 0.01 + 1e-6 * ball;
+    queue.push(balls, ball);
+  }
+  for (std::uint32_t k = 0; k < 20 * count; ++k) turn(queue.first(balls, infinity).time);
+  std::size_t most = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    turn(queue.first(balls, infinity).time);
+    most = std::max(most, in_order());
+  }
+  EXPECT_LE(most, 200u) << "seed " << seed;
+}
+
+/// Balls are due in order of time and number, also where many are due at one time, or only far away.
 TEST(DueQueue, GivesBallsInOrder) {
   for (const double spread : {1e-9, 1.0, 1e6}) {
     for (const std::uint32_t count : {1u, 10u, 3000u}) {

@@ -52,7 +52,7 @@ TEST_F(PairCertifierTest, ForgetsPairsThatFiltersKeepApart) {
   add({.velocity = {1, 0, 0}, .filter = {.category = 2, .mask = 4}});
   add({.position = {3, 0, 0}});
   EXPECT_EQ(certifier().apart_until(0, 1), infinity);
-  EXPECT_EQ(certifier().unchanged_until_by_thresholds(0, 1), infinity);
+  EXPECT_EQ(certifier().unchanged_until(0, 1, world.state.contacts.links_of(0, 1)), infinity);
 }
 
 TEST_F(PairCertifierTest, HasThresholdsInwardAndOutward) {
@@ -61,7 +61,7 @@ TEST_F(PairCertifierTest, HasThresholdsInwardAndOutward) {
   world.add({.position = {4, 0, 0}});
   const auto thresholds = [&] {
     std::vector<std::pair<bool, double>> all;
-    certifier().for_each_threshold(0, 1, [&](const Threshold& one) {
+    certifier().for_each_threshold(0, 1, world.state.contacts.links_of(0, 1), [&](const Threshold& one) {
       if (one.sensed) all.emplace_back(one.within, one.distance);
     });
     return all;
