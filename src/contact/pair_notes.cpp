@@ -6,13 +6,6 @@
 
 namespace kinesphere {
 
-const PairNote* PairNotes::find(std::uint32_t a, std::uint32_t b) const {
-  const auto notes = of(a);
-  const auto found =
-      std::find_if(notes.begin(), notes.end(), [=](const auto& each) { return each.partner == b; });
-  return found != notes.end() ? &*found : nullptr;
-}
-
 bool PairNotes::has_turned(std::uint32_t body) const {
   const auto notes = of(body);
   return std::any_of(notes.begin(), notes.end(), [](const auto& each) { return each.is_turned(); });

@@ -50,7 +50,11 @@ class PairNotes {
   bool is_valid(std::size_t bodies) const;
 
  private:
-  const PairNote* find(std::uint32_t a, std::uint32_t b) const;
+  const PairNote* find(std::uint32_t a, std::uint32_t b) const {
+    for (const PairNote& note : of(a))
+      if (note.partner == b) return &note;
+    return nullptr;
+  }
   void keep(std::uint32_t a, const PairNote& note);
   void keep_half(std::uint32_t body, const PairNote& note);
 
