@@ -36,8 +36,6 @@ void Core::find_due(std::uint32_t number, bool is_last, Host& host) {
   const auto neighbours = lists_.at(ball.list);
   find_linked(number, linked_, host);
   Counters& work = host.work_counters(number);
-  // First, since what is due soon leaves less time in which others may be met.
-  look_out_for_linked(number, linked_, work, host);
   for (std::size_t k = 0; k < neighbours.size(); k += most_lanes) {
     std::array<std::uint32_t, most_lanes> room;
     auto some = neighbours.subspan(k, std::min(neighbours.size() - k, most_lanes));
@@ -51,6 +49,7 @@ void Core::find_due(std::uint32_t number, bool is_last, Host& host) {
       balls_[some[lane]].set(Ball::crowded, true);
     }
   }
+  look_out_for_linked(number, linked_, work, host);
 }
 
 /// The list of a ball is about to be scanned.
