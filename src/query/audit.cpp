@@ -158,13 +158,11 @@ class World::Engine::Audit {
     check_overlaps(a, b);
     check_overlaps(b, a);
     if (!engine_.bodies().may_meet(a, b) || !is_certified(a, b)) return;
-    engine_.main().certifier().for_each_threshold(a, b, engine_.contacts().links_of(a, b),
-                                                  [&](const Threshold& threshold) {
-                                                    if (!threshold.is_turned)
-                                                      check_threshold(a, b, threshold);
-                                                    if (threshold.is_watched())
-                                                      check_threshold(a, b, next_approach(threshold));
-                                                  });
+    const PairLinks links = engine_.contacts().links_of(a, b);
+    engine_.main().certifier().for_each_threshold(a, b, links, [&](const Threshold& threshold) {
+      if (!threshold.is_turned) check_threshold(a, b, threshold);
+      if (threshold.is_watched()) check_threshold(a, b, next_approach(threshold));
+    });
   }
 
   /// Returns the threshold that two bodies in touch cross when they approach again.
