@@ -1,5 +1,4 @@
 // Certificates as answers, and queries.
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -17,67 +16,70 @@
 namespace kinesphere::python {
 namespace {
 
-/// Queries with a probe, or with None from existing reports alone.
-template <class Question>
-auto asked(WorldHandle& handle, const char* call, const py::object& probe, const Question& question) {
+/// Asks question(view) with a view such as the queries of the world: view(world, probe), or without a probe,
+/// for None, view(world), which answers from existing reports alone.
+template <class View, class Question>
+auto asked(WorldHandle& handle, const char* call, const py::object& probe, const View& view,
+           const Question& question) {
   const auto turn = handle.take(call);
-  if (probe.is_none()) return without_gil(handle, [&] { return question(handle.world); }).value();
+  if (probe.is_none()) return without_gil(handle, [&] { return question(view(handle.world)); }).value();
   Asked who(probe, call, handle.is_plane());
-  return without_gil(handle, [&] { return question(handle.world, who.probe()); }).value();
+  return without_gil(handle, [&] { return question(view(handle.world, who.probe())); }).value();
 }
+
+constexpr auto certificates_of = [](World& world, auto&&... probe) {
+  return world.certificates(std::forward<decltype(probe)>(probe)...);
+};
+constexpr auto queries_of = [](World& world, auto&&... probe) {
+  return world.queries(std::forward<decltype(probe)>(probe)...);
+};
+using Certificates = World::Certificates;
+using Queries = World::Queries;
 
 py::object safe_until(WorldHandle& handle, const py::object& first, const py::object& second,
                       const py::object& distance, const py::object& probe) {
-  const char* const call = "safe_until";
+  const auto body = [](const py::object& given, const char* name) {
+    return id_of(given, {"safe_until", name});
+  };
+  const auto answer = [&](const auto& question) {
+    return py::cast(asked(handle, "safe_until", probe, certificates_of, question));
+  };
   if (!distance.is_none()) {
     const auto length = distance.cast<double>();
     if (first.is_none() || second.is_none())
-      refuse({call, "distance"}, "must come with two bodies",
+      refuse({"safe_until", "distance"}, "must come with two bodies",
              "there are fewer (earliest_approach() is for one)");
-    const BodyId a = id_of(first, {call, "first"}), b = id_of(second, {call, "second"});
-    return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
-      return world.certificates(std::forward<decltype(with)>(with)...).safe_until(a, b, length);
-    }));
+    const BodyId a = body(first, "first"), b = body(second, "second");
+    return answer([&](const Certificates& of) { return of.safe_until(a, b, length); });
   }
   if (!second.is_none()) {
-    const BodyId a = id_of(first, {call, "first"}), b = id_of(second, {call, "second"});
-    return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
-      return world.certificates(std::forward<decltype(with)>(with)...).safe_until(a, b);
-    }));
+    const BodyId a = body(first, "first"), b = body(second, "second");
+    return answer([&](const Certificates& of) { return of.safe_until(a, b); });
   }
-  if (!first.is_none()) {
-    const BodyId body = id_of(first, {call, "first"});
-    return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
-      return world.certificates(std::forward<decltype(with)>(with)...).safe_until(body);
-    }));
-  }
-  return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
-    return world.certificates(std::forward<decltype(with)>(with)...).safe_until();
-  }));
+  if (first.is_none()) return answer([](const Certificates& of) { return of.safe_until(); });
+  const BodyId only = body(first, "first");
+  return answer([&](const Certificates& of) { return of.safe_until(only); });
 }
 
 EarliestContact earliest_contact(WorldHandle& handle, const py::object& body, const py::object& probe) {
   const BodyId id = id_of(body, {"earliest_contact", "body"});
-  return asked(handle, "earliest_contact", probe, [&](World& world, auto&&... with) {
-    return world.certificates(std::forward<decltype(with)>(with)...).earliest_contact(id);
-  });
+  return asked(handle, "earliest_contact", probe, certificates_of,
+               [&](const Certificates& of) { return of.earliest_contact(id); });
 }
 
 EarliestApproach earliest_approach(WorldHandle& handle, const py::object& body, double distance,
                                    const py::object& probe) {
   const BodyId id = id_of(body, {"earliest_approach", "body"});
-  return asked(handle, "earliest_approach", probe, [&](World& world, auto&&... with) {
-    return world.certificates(std::forward<decltype(with)>(with)...).earliest_approach(id, distance);
-  });
+  return asked(handle, "earliest_approach", probe, certificates_of,
+               [&](const Certificates& of) { return of.earliest_approach(id, distance); });
 }
 
 DistanceLimits distance_limits(WorldHandle& handle, const py::object& first, const py::object& second,
                                double time, const py::object& probe) {
   const BodyId a = id_of(first, {"distance_limits", "first"}),
                b = id_of(second, {"distance_limits", "second"});
-  return asked(handle, "distance_limits", probe, [&](World& world, auto&&... with) {
-    return world.certificates(std::forward<decltype(with)>(with)...).distance_limits(a, b, time);
-  });
+  return asked(handle, "distance_limits", probe, certificates_of,
+               [&](const Certificates& of) { return of.distance_limits(a, b, time); });
 }
 
 // Rows of the results of queries.
@@ -96,12 +98,6 @@ constexpr Field found_fields[] = {{"body", "i8", offsetof(FoundRecord, body)},
                                   {"lower", "f8", offsetof(FoundRecord, lower)},
                                   {"upper", "f8", offsetof(FoundRecord, upper)}};
 
-NewArray new_found(std::size_t count, bool with_limits) {
-  const std::span<const Field> fields(found_fields);
-  return {
-      {count}, row_type(with_limits ? fields : fields.first(2), sizeof(FoundRecord)), sizeof(FoundRecord)};
-}
-
 /// Overlaps have no limits of a distance.
 template <class Hit>
 constexpr bool has_limits = !std::is_same_v<Hit, OverlapHit>;
@@ -118,51 +114,46 @@ FoundRecord found_record_of(const Hit& hit) {
 
 template <class Hit>
 py::object found_table(const std::vector<Hit>& found) {
-  NewArray table = new_found(found.size(), has_limits<Hit>);
-  std::transform(found.begin(), found.end(), table.data<FoundRecord>(), found_record_of<Hit>);
-  return table.take();
+  const std::span<const Field> fields(found_fields);
+  return table_of_records<FoundRecord>(has_limits<Hit> ? fields : fields.first(2), found.size(),
+                                       [&](std::size_t k) { return found_record_of(found[k]); });
 }
 
 py::object overlapping(WorldHandle& handle, const py::object& centre, double radius,
                        const py::object& probe) {
   const Vec3 middle = vector_of(centre, {"overlapping", "centre"}, handle.is_plane());
-  return found_table(asked(handle, "overlapping", probe, [&](World& world, auto&&... with) {
-    return world.queries(std::forward<decltype(with)>(with)...).overlapping(middle, radius);
-  }));
+  return found_table(asked(handle, "overlapping", probe, queries_of,
+                           [&](const Queries& of) { return of.overlapping(middle, radius); }));
 }
 
 py::object overlapping_box(WorldHandle& handle, const py::object& given, const py::object& probe) {
   const Argument argument{"overlapping_box", "box"};
   const auto box = box_of(given, argument, handle.is_plane());
   if (!box) throw py::type_error("overlapping_box: box must be a Box or two corners, but is None");
-  return found_table(asked(handle, "overlapping_box", probe, [&](World& world, auto&&... with) {
-    return world.queries(std::forward<decltype(with)>(with)...).overlapping(*box);
-  }));
+  return found_table(asked(handle, "overlapping_box", probe, queries_of,
+                           [&](const Queries& of) { return of.overlapping(*box); }));
 }
 
 py::object nearest(WorldHandle& handle, const py::object& point, std::size_t count, const py::object& probe) {
   const Vec3 from = vector_of(point, {"nearest", "point"}, handle.is_plane());
-  return found_table(asked(handle, "nearest", probe, [&](World& world, auto&&... with) {
-    return world.queries(std::forward<decltype(with)>(with)...).nearest(from, count);
-  }));
+  return found_table(asked(handle, "nearest", probe, queries_of,
+                           [&](const Queries& of) { return of.nearest(from, count); }));
 }
 
 py::object ray_cast(WorldHandle& handle, const py::object& origin, const py::object& direction, double length,
                     const py::object& probe) {
   const Vec3 from = vector_of(origin, {"ray_cast", "origin"}, handle.is_plane());
   const Vec3 towards = vector_of(direction, {"ray_cast", "direction"}, handle.is_plane());
-  return found_table(asked(handle, "ray_cast", probe, [&](World& world, auto&&... with) {
-    return world.queries(std::forward<decltype(with)>(with)...).ray_cast(from, towards, length);
-  }));
+  return found_table(asked(handle, "ray_cast", probe, queries_of,
+                           [&](const Queries& of) { return of.ray_cast(from, towards, length); }));
 }
 
 py::object sphere_cast(WorldHandle& handle, const py::object& origin, double radius,
                        const py::object& direction, double length, const py::object& probe) {
   const Vec3 from = vector_of(origin, {"sphere_cast", "origin"}, handle.is_plane());
   const Vec3 towards = vector_of(direction, {"sphere_cast", "direction"}, handle.is_plane());
-  return found_table(asked(handle, "sphere_cast", probe, [&](World& world, auto&&... with) {
-    return world.queries(std::forward<decltype(with)>(with)...).sphere_cast(from, radius, towards, length);
-  }));
+  return found_table(asked(handle, "sphere_cast", probe, queries_of,
+                           [&](const Queries& of) { return of.sphere_cast(from, radius, towards, length); }));
 }
 
 // Many queries at once.
@@ -217,9 +208,8 @@ struct ManyOptions {
   /// Returns the table of what ask(queries, workers) finds.
   py::object table(WorldHandle& handle, const char* call, const auto& ask) const {
     Threads shared(threads);
-    return found_table(asked(handle, call, probe, [&](World& world, auto&&... with) {
-      return ask(world.queries(std::forward<decltype(with)>(with)...), shared.workers());
-    }));
+    return found_table(
+        asked(handle, call, probe, queries_of, [&](const Queries& of) { return ask(of, shared.workers()); }));
   }
 };
 
@@ -233,8 +223,8 @@ py::object overlapping_all(WorldHandle& handle, const py::object& centres, const
   const std::vector<BodyId> except = options.left_out(call, middles.size());
   std::vector<SphereQuery> spheres;
   for (std::size_t k = 0; k < middles.size(); ++k) spheres.push_back({middles[k], sizes[k], except[k]});
-  return options.table(handle, call, [&](const World::Queries& queries, Workers* workers) {
-    return queries.overlapping_all(spheres, options.filter(), workers);
+  return options.table(handle, call, [&](const Queries& of, Workers* workers) {
+    return of.overlapping_all(spheres, options.filter(), workers);
   });
 }
 
@@ -247,8 +237,8 @@ py::object nearest_all(WorldHandle& handle, const py::object& points, std::size_
   const std::vector<BodyId> except = options.left_out(call, places.size());
   std::vector<PointQuery> all;
   for (std::size_t k = 0; k < places.size(); ++k) all.push_back({places[k], except[k]});
-  return options.table(handle, call, [&](const World::Queries& queries, Workers* workers) {
-    return queries.nearest_all(all, count, options.filter(), workers);
+  return options.table(handle, call, [&](const Queries& of, Workers* workers) {
+    return of.nearest_all(all, count, options.filter(), workers);
   });
 }
 
@@ -267,8 +257,8 @@ py::object ray_cast_all(WorldHandle& handle, const py::object& origins, const py
   std::vector<RayQuery> rays;
   for (std::size_t k = 0; k < from.size(); ++k)
     rays.push_back({from[k], towards[k], ways[k], sizes[k], except[k]});
-  return options.table(handle, call, [&](const World::Queries& queries, Workers* workers) {
-    return queries.ray_cast_all(rays, options.filter(), workers);
+  return options.table(handle, call, [&](const Queries& of, Workers* workers) {
+    return of.ray_cast_all(rays, options.filter(), workers);
   });
 }
 
@@ -278,8 +268,7 @@ py::object partner_of(const Result& result) {
 }
 template <class Result>
 py::object wall_of(const Result& result) {
-  if (result.wall == Wall::none) return py::none();
-  return package_attribute("kinesphere.kinds", "Wall")(static_cast<int>(result.wall));
+  return object_of_field(result.wall);
 }
 
 void bind_results(py::module_& module) {

@@ -125,6 +125,13 @@ std::vector<BodyId> add_all(WorldHandle& handle, const std::vector<BodyDefinitio
   throw BadResult(error);
 }
 
+/// Ends a call that added one body.
+py::object object_of_added(WorldHandle& handle, const Result<BodyId>& added) {
+  const BodyId id = added.value();
+  end_call(handle);
+  return object_of(id);
+}
+
 py::object add_bodies(WorldHandle& handle, const py::object& positions, const py::object& velocities,
                       const py::object& radii, const py::object& acceleration_limits,
                       const py::object& planned_accelerations, const py::object& position_errors,
@@ -139,11 +146,7 @@ py::object add_bodies(WorldHandle& handle, const py::object& positions, const py
                      single ? one_row(velocities) : py::reinterpret_borrow<py::object>(velocities),
                      acceleration_limits, planned_accelerations, position_errors, velocity_errors,
                      {radii, categories, masks, group, solid, sensor_classes, user_data, mass, contacts});
-  if (single) {
-    const BodyId id = handle.change([&](auto& to) { return to.add(bodies.front()); }).value();
-    end_call(handle);
-    return object_of(id);
-  }
+  if (single) return object_of_added(handle, handle.change([&](auto& to) { return to.add(bodies.front()); }));
   return array_of(add_all(handle, bodies, "add"));
 }
 
@@ -178,21 +181,28 @@ py::object add_motion(WorldHandle& handle, MotionHandle& moved, const py::object
   return array_of(ids);
 }
 
-py::object add_static(WorldHandle& handle, const py::object& shape, std::uint64_t category,
-                      std::uint64_t mask, const py::object& group, bool solid, std::uint64_t sensor_class,
-                      std::uint64_t user_data) {
-  const auto turn = handle.take("add_static");
-  const BodyId id =
-      handle.world
-          .add_static({.shape = shape_of(shape, {"add_static", "shape"}),
-                       .filter = {category, mask, group_of(group, {"add_static", "group"})},
-                       .solid = solid,
-                       .sensor_class = sensor_class_of(sensor_class, {"add_static", "sensor_class"}),
-                       .user_data = user_data})
-          .value();
-  end_call(handle);
-  return object_of(id);
+/// Returns a call that adds a body that never moves, whose shape is shape_of_given(given, call), of one or
+/// several arguments.
+template <class... Given, class ShapeOf>
+auto adding_static(const char* call, ShapeOf shape_of_given) {
+  return [=](WorldHandle& handle, const Given&... given, std::uint64_t category, std::uint64_t mask,
+             const py::object& group, bool solid, std::uint64_t sensor_class, std::uint64_t user_data) {
+    const auto turn = handle.take(call);
+    return object_of_added(handle, handle.world.add_static(
+                                       {.shape = shape_of_given(given...),
+                                        .filter = {category, mask, group_of(group, {call, "group"})},
+                                        .solid = solid,
+                                        .sensor_class = sensor_class_of(sensor_class, {call, "sensor_class"}),
+                                        .user_data = user_data}));
+  };
 }
+const auto add_static = adding_static<py::object>("add_static", [](const py::object& shape) {
+  return shape_of(shape, {"add_static", "shape"});
+});
+const auto add_mesh = adding_static<py::object, py::object>(
+    "add_mesh", [](const py::object& vertices, const py::object& corners) {
+      return Shape(mesh_of(vertices, corners, "add_mesh"));
+    });
 
 py::object add_moving_shape(WorldHandle& handle, const py::object& shape, const py::object& position,
                             const py::object& velocity, double acceleration_limit,
@@ -217,32 +227,12 @@ py::object add_moving_shape(WorldHandle& handle, const py::object& shape, const 
                             .user_data = user_data,
                             .mass = mass},
                            shape_of(shape, {call, "shape"})};
-  const BodyId id = handle.change([&](auto& to) { return to.add_moving_shape(moving); }).value();
-  end_call(handle);
-  return object_of(id);
+  return object_of_added(handle, handle.change([&](auto& to) { return to.add_moving_shape(moving); }));
 }
 
 py::object add_zone(WorldHandle& handle, const py::object& shape, std::uint64_t user_data) {
   const auto turn = handle.take("add_zone");
-  const BodyId id = handle.world.add_zone(shape_of(shape, {"add_zone", "shape"}), user_data).value();
-  end_call(handle);
-  return object_of(id);
-}
-
-py::object add_mesh(WorldHandle& handle, const py::object& vertices, const py::object& corners,
-                    std::uint64_t category, std::uint64_t mask, const py::object& group, bool solid,
-                    std::uint64_t sensor_class, std::uint64_t user_data) {
-  const auto turn = handle.take("add_mesh");
-  const BodyId id =
-      handle.world
-          .add_static({.shape = mesh_of(vertices, corners, "add_mesh"),
-                       .filter = {category, mask, group_of(group, {"add_mesh", "group"})},
-                       .solid = solid,
-                       .sensor_class = sensor_class_of(sensor_class, {"add_mesh", "sensor_class"}),
-                       .user_data = user_data})
-          .value();
-  end_call(handle);
-  return object_of(id);
+  return object_of_added(handle, handle.world.add_zone(shape_of(shape, {"add_zone", "shape"}), user_data));
 }
 
 void remove(WorldHandle& handle, const py::object& bodies) {
@@ -306,19 +296,17 @@ void put(WorldHandle& handle, const py::object& bodies, const py::object& positi
   });
 }
 
-void set_radius(WorldHandle& handle, const py::object& bodies, const py::object& radii) {
-  const std::vector<double> each =
-      each_of(radii, {"set_radius", "radii"}, ids_of(bodies, {"set_radius", "bodies"}).ids.size());
-  change_each(handle, bodies, "set_radius",
-              [&](BodyId body, std::size_t k) { return handle.world.change(body, {.radius = each[k]}); });
-}
-
-void set_radius_rate(WorldHandle& handle, const py::object& bodies, const py::object& rates) {
-  const std::vector<double> each =
-      each_of(rates, {"set_radius_rate", "rates"}, ids_of(bodies, {"set_radius_rate", "bodies"}).ids.size());
-  change_each(handle, bodies, "set_radius_rate", [&](BodyId body, std::size_t k) {
-    return handle.world.change(body, {.radius_rate = each[k]});
-  });
+/// Binds a call that changes a part of some bodies to numbers, which read() reads: each_of or each_whole_of.
+template <auto part, class Read>
+auto changing_to(const char* call, const char* name, Read read) {
+  return [=](WorldHandle& handle, const py::object& bodies, const py::object& given) {
+    const auto each = read(given, {call, name}, ids_of(bodies, {call, "bodies"}).ids.size());
+    BodyChange change;
+    change_each(handle, bodies, call, [&](BodyId body, std::size_t k) {
+      change.*part = each[k];
+      return handle.world.change(body, change);
+    });
+  };
 }
 
 void set_shape(WorldHandle& handle, const py::object& body, const py::object& shape) {
@@ -326,13 +314,6 @@ void set_shape(WorldHandle& handle, const py::object& body, const py::object& sh
   require(
       handle.world.set_shape(id_of(body, {"set_shape", "body"}), shape_of(shape, {"set_shape", "shape"})));
   end_call(handle);
-}
-
-void set_mass(WorldHandle& handle, const py::object& bodies, const py::object& masses) {
-  const std::vector<double> each =
-      each_of(masses, {"set_mass", "masses"}, ids_of(bodies, {"set_mass", "bodies"}).ids.size());
-  change_each(handle, bodies, "set_mass",
-              [&](BodyId body, std::size_t k) { return handle.world.change(body, {.mass = each[k]}); });
 }
 
 void set_motion_limits(WorldHandle& handle, const py::object& bodies, double acceleration_limit,
@@ -354,11 +335,8 @@ void set_filter(WorldHandle& handle, const py::object& bodies, std::uint64_t cat
 
 void set_pair_filter(WorldHandle& handle, const py::object& function) {
   const auto turn = handle.take("set_pair_filter");
-  if (!function.is_none() && PyCallable_Check(function.ptr()) == 0)
-    throw py::type_error("set_pair_filter: function must be a function of (first, second), but is " +
-                         py::repr(function).cast<std::string>());
-  std::shared_ptr<FilterTrouble> trouble;
-  if (!function.is_none()) trouble = std::make_shared<FilterTrouble>();
+  require_function(function, {"set_pair_filter", "function"}, "must be a function of (first, second)");
+  const auto trouble = trouble_of(function);
   require(handle.world.set_pair_filter(pair_filter_of(function, trouble)));
   handle.filter_trouble = trouble;
   end_call(handle);
@@ -472,19 +450,20 @@ changed.)")
           },
           py::arg("bodies"), py::arg("positions"), py::arg("velocities") = py::none(),
           "These bodies are in other states from now on; shapes as in set_velocity().")
-      .def("set_radius", set_radius, py::arg("bodies"), py::arg("radii"),
-           "The radii (length, >= 0) of these bodies from now on.")
+      .def("set_radius", changing_to<&BodyChange::radius>("set_radius", "radii", each_of), py::arg("bodies"),
+           py::arg("radii"), "The radii (length, >= 0) of these bodies from now on.")
       .def("set_shape", set_shape, py::arg("body"), py::arg("shape"),
            R"(Gives a static body or a zone another shape from now on: it grows, shrinks or moves.
 
 Only true changes are told: who stays inside a zone neither leaves nor enters.)")
-      .def("set_radius_rate", set_radius_rate, py::arg("bodies"), py::arg("rates"),
+      .def("set_radius_rate", changing_to<&BodyChange::radius_rate>("set_radius_rate", "rates", each_of),
+           py::arg("bodies"), py::arg("rates"),
            R"(Lets the radii of balls change at these rates (length / time) from now on.
 
 A rate below 0 is that of a ball that shrinks; it stays a point once it is one. Events have the speed at which the
 surfaces approach, and body() has the present radius. Such a ball cannot sleep.)")
-      .def("set_mass", set_mass, py::arg("bodies"), py::arg("masses"),
-           "The masses (>= 0) that events have from now on; see add().")
+      .def("set_mass", changing_to<&BodyChange::mass>("set_mass", "masses", each_of), py::arg("bodies"),
+           py::arg("masses"), "The masses (>= 0) that events have from now on; see add().")
       .def("set_motion_limits", set_motion_limits, py::arg("bodies"), py::arg("acceleration_limit"),
            py::kw_only(), py::arg("planned_acceleration") = py::make_tuple(0.0, 0.0, 0.0),
            py::arg("position_error") = 0.0, py::arg("velocity_error") = 0.0,
@@ -599,17 +578,9 @@ With a period (time, > 0) it comes again after each.)")
             return removed;
           },
           py::arg("user_data"), "Removes all timers with these data. Returns how many there were.")
-      .def(
-          "set_user_data",
-          [](WorldHandle& handle, const py::object& bodies, const py::object& data) {
-            const std::vector<std::uint64_t> each = each_whole_of(
-                data, {"set_user_data", "data"}, ids_of(bodies, {"set_user_data", "bodies"}).ids.size());
-            change_each(handle, bodies, "set_user_data", [&](BodyId body, std::size_t k) {
-              return handle.world.change(body, {.user_data = each[k]});
-            });
-          },
-          py::arg("bodies"), py::arg("data"),
-          "Stores one whole number for all, or one of each body, shape (n,): events have it.");
+      .def("set_user_data", changing_to<&BodyChange::user_data>("set_user_data", "data", each_whole_of),
+           py::arg("bodies"), py::arg("data"),
+           "Stores one whole number for all, or one of each body, shape (n,): events have it.");
 }
 
 }  // namespace kinesphere::python

@@ -51,37 +51,41 @@ BodyDefinition with_mass(BodyDefinition body, double mass, const std::optional<s
   return body;
 }
 
+/// Adds what add(motion) adds to the map and the world, and returns its id or ids.
+template <class Add>
+auto added(BodyMapHandle& map, WorldHandle& world, const py::object& moving, const char* call,
+           const Add& add) {
+  auto& motion = moving.cast<MotionHandle&>();
+  const auto turn = map.in_use.take_alone(call, map_name);
+  const auto turn_of_motion = motion.take(call);
+  const auto turn_of_world = world.take(call);
+  const auto ids = add(*motion.motion).value();
+  keep(map, moving);
+  end_call(world);
+  return ids;
+}
+
 py::object add_moved(BodyMapHandle& map, WorldHandle& world, const py::object& moving, std::uint32_t number,
                      double radius, std::uint64_t category, std::uint64_t mask, std::int32_t group,
                      bool solid, SensorClass sensor_class, std::uint64_t user_data, double mass,
                      const std::optional<std::string>& contacts) {
-  auto& motion = moving.cast<MotionHandle&>();
-  const auto turn = map.in_use.take_alone("add", map_name);
-  const auto turn_of_motion = motion.in_use.take_alone("add", "motion");
-  const auto turn_of_world = world.take("add");
-  const BodyDefinition body =
-      with_mass(like(radius, category, mask, group, solid, sensor_class, user_data), mass, contacts, "add");
-  const BodyId id = map.map->add(world.world, *motion.motion, number, body).value();
-  keep(map, moving);
-  end_call(world);
-  return object_of(id);
+  return object_of(added(map, world, moving, "add", [&](Motion& motion) {
+    const BodyDefinition body =
+        with_mass(like(radius, category, mask, group, solid, sensor_class, user_data), mass, contacts, "add");
+    return map.map->add(world.world, motion, number, body);
+  }));
 }
 
 py::object add_moved_shape(BodyMapHandle& map, WorldHandle& world, const py::object& moving,
                            std::uint32_t number, const py::object& shape, std::uint64_t category,
                            std::uint64_t mask, std::int32_t group, bool solid, SensorClass sensor_class,
                            std::uint64_t user_data, double mass) {
-  auto& motion = moving.cast<MotionHandle&>();
-  const auto turn = map.in_use.take_alone("add_moving_shape", map_name);
-  const auto turn_of_motion = motion.in_use.take_alone("add_moving_shape", "motion");
-  const auto turn_of_world = world.take("add_moving_shape");
-  MovingShape carried{like(0.0, category, mask, group, solid, sensor_class, user_data),
-                      shape_of(shape, {"add_moving_shape", "shape"})};
-  carried.body.mass = mass;
-  const BodyId id = map.map->add_moving_shape(world.world, *motion.motion, number, carried).value();
-  keep(map, moving);
-  end_call(world);
-  return object_of(id);
+  return object_of(added(map, world, moving, "add_moving_shape", [&](Motion& motion) {
+    MovingShape carried{like(0.0, category, mask, group, solid, sensor_class, user_data),
+                        shape_of(shape, {"add_moving_shape", "shape"})};
+    carried.body.mass = mass;
+    return map.map->add_moving_shape(world.world, motion, number, carried);
+  }));
 }
 
 py::object add_moved_rigid_body(BodyMapHandle& map, WorldHandle& world, const py::object& moving,
@@ -90,38 +94,27 @@ py::object add_moved_rigid_body(BodyMapHandle& map, WorldHandle& world, const py
                                 double largest_angular_speed, const py::object& inertia,
                                 std::uint64_t category, std::uint64_t mask, std::int32_t group, bool solid,
                                 SensorClass sensor_class, std::uint64_t user_data, double mass) {
-  auto& motion = moving.cast<MotionHandle&>();
-  const auto turn = map.in_use.take_alone("add_rigid_body", map_name);
-  const auto turn_of_motion = motion.in_use.take_alone("add_rigid_body", "motion");
-  const auto turn_of_world = world.take("add_rigid_body");
-  BodyDefinition body = like(0.0, category, mask, group, solid, sensor_class, user_data);
-  body.mass = mass;
-  const RigidArguments rigid{
-      parts, orientation, angular_velocity, angular_acceleration_limit, largest_angular_speed, inertia};
-  const BodyId id = map.map->add_rigid_body(world.world, *motion.motion, number, rigid.read(body)).value();
-  keep(map, moving);
-  end_call(world);
-  return object_of(id);
+  return object_of(added(map, world, moving, "add_rigid_body", [&](Motion& motion) {
+    BodyDefinition body = like(0.0, category, mask, group, solid, sensor_class, user_data);
+    body.mass = mass;
+    const RigidArguments rigid{
+        parts, orientation, angular_velocity, angular_acceleration_limit, largest_angular_speed, inertia};
+    return map.map->add_rigid_body(world.world, motion, number, rigid.read(body));
+  }));
 }
 
 py::object add_all_moved(BodyMapHandle& map, WorldHandle& world, const py::object& moving,
                          const py::object& radii, std::uint64_t category, std::uint64_t mask,
                          std::int32_t group, bool solid, SensorClass sensor_class, std::uint64_t user_data,
                          double mass, const std::optional<std::string>& contacts) {
-  auto& motion = moving.cast<MotionHandle&>();
-  const auto turn = map.in_use.take_alone("add_all", map_name);
-  const auto turn_of_motion = motion.in_use.take_alone("add_all", "motion");
-  const auto turn_of_world = world.take("add_all");
-  std::size_t count = 0;
-  for (std::uint32_t number = 0; number < motion.motion->size(); ++number)
-    count += motion.motion->contains(number) ? 1 : 0;
-  const std::vector<double> each = each_of(radii, {"add_all", "radii"}, count);
-  const BodyDefinition body =
-      with_mass(like(1.0, category, mask, group, solid, sensor_class, user_data), mass, contacts, "add_all");
-  const std::vector<BodyId> ids = map.map->add_all(world.world, *motion.motion, each, body).value();
-  keep(map, moving);
-  end_call(world);
-  return array_of(ids);
+  return array_of(added(map, world, moving, "add_all", [&](Motion& motion) {
+    std::size_t count = 0;
+    for (std::uint32_t number = 0; number < motion.size(); ++number) count += motion.contains(number) ? 1 : 0;
+    const std::vector<double> each = each_of(radii, {"add_all", "radii"}, count);
+    const BodyDefinition body = with_mass(like(1.0, category, mask, group, solid, sensor_class, user_data),
+                                          mass, contacts, "add_all");
+    return map.map->add_all(world.world, motion, each, body);
+  }));
 }
 
 /// Returns a map of the same bodies for copies of its motions. copy.deepcopy() copies each motion once, also
@@ -154,7 +147,7 @@ py::tuple reduced_map(BodyMapHandle& map) {
 void connect(BodyMapHandle& map, const py::object& body, const py::object& moving, std::uint32_t number) {
   auto& motion = moving.cast<MotionHandle&>();
   const auto turn = map.in_use.take_alone("pickle", map_name);
-  const auto turn_of_motion = motion.in_use.take_alone("pickle", "motion");
+  const auto turn_of_motion = motion.take("pickle");
   require(map.map->connect(id_of(body, {"BodyMap", "body"}), *motion.motion, number));
   keep(map, moving);
 }

@@ -102,12 +102,20 @@ void refuse(const Argument& argument, std::string_view expectation, const std::s
                        std::string(expectation) + ", but " + found});
 }
 
+void refuse_type(const Argument& argument, std::string_view expectation, py::handle given) {
+  throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) + " " +
+                       std::string(expectation) + ", but is " + text_of(py::repr(given)));
+}
+
+void require_function(const py::object& given, const Argument& argument, std::string_view expectation) {
+  if (!given.is_none() && PyCallable_Check(given.ptr()) == 0) refuse_type(argument, expectation, given);
+}
+
 std::uint64_t whole_number(py::handle given, const Argument& argument) {
   const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
   if (!index) {
     PyErr_Clear();
-    throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) +
-                         " must be a whole number, but is " + text_of(py::repr(given)));
+    refuse_type(argument, "must be a whole number", given);
   }
   const unsigned long long number = PyLong_AsUnsignedLongLong(index.ptr());
   if (PyErr_Occurred() == nullptr) return number;
@@ -315,6 +323,12 @@ py::object array_of(const Vec3& vector) {
   return made_array(three, double_type(), bytes.ptr());
 }
 
+py::object array_of(std::span<const Vec3> vectors) {
+  NewArray array = new_doubles({vectors.size(), 3});
+  if (!vectors.empty()) std::memcpy(array.data<double>(), vectors.data(), vectors.size_bytes());
+  return array.take();
+}
+
 py::tuple arrays_of(std::span<const State> states) {
   NewArray positions = new_doubles({states.size(), 3}), velocities = new_doubles({states.size(), 3});
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -348,8 +362,7 @@ BodyId id_of(py::handle given, const Argument& argument) {
   // A list of truth values is a mask, and no ids 0 and 1.
   if (!index || PyBool_Check(given.ptr())) {
     PyErr_Clear();
-    throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) +
-                         " must be the id of a body, but is " + text_of(py::repr(given)));
+    refuse_type(argument, "must be the id of a body", given);
   }
   int overflow = 0;
   const long long number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);

@@ -32,6 +32,11 @@ struct Argument {
 [[noreturn]] void refuse(const Argument& argument, std::string_view expectation, const std::string& found,
                          ErrorCode code = ErrorCode::out_of_range);
 
+/// Throws TypeError: "call: name <expectation>, but is <given>".
+[[noreturn]] void refuse_type(const Argument& argument, std::string_view expectation, py::handle given);
+/// Throws that unless `given` is a function, which `expectation` describes, or None.
+void require_function(const py::object& given, const Argument& argument, std::string_view expectation);
+
 // Input arrays.
 
 /// A view of real numbers in Python's memory: float64 and float32 in place, with any strides;
@@ -120,11 +125,21 @@ struct Field {
 /// Returns the numpy.dtype of rows of this size with these fields.
 py::object row_type(std::span<const Field> fields, std::size_t row_size);
 
+/// Returns a structured array of the rows record(0) to record(count - 1).
+template <class Record, class RecordOf>
+py::object table_of_records(std::span<const Field> fields, std::size_t count, const RecordOf& record) {
+  NewArray table({count}, row_type(fields, sizeof(Record)), sizeof(Record));
+  for (std::size_t k = 0; k < count; ++k) table.data<Record>()[k] = record(k);
+  return table.take();
+}
+
 NewArray new_doubles(std::initializer_list<std::size_t> shape);
 NewArray new_whole_numbers(std::size_t count);
 /// Returns a read-only array of three numbers.
 py::object array_of(const Vec3& vector);
 py::object array_of(std::span<const double> numbers);
+/// Returns an array of shape (n, 3).
+py::object array_of(std::span<const Vec3> vectors);
 /// Returns two arrays of shape (n, 3): positions and velocities.
 py::tuple arrays_of(std::span<const State> states);
 py::bytes bytes_of(std::span<const std::byte> bytes);
@@ -169,6 +184,14 @@ auto repr_of_parts(Names... names) {
   return [=](const py::object& self) {
     const char* const parts[] = {names...};
     return text_of_parts(self, parts);
+  };
+}
+
+/// Returns a function for __reduce__: the class makes the object again, of attributes of these names.
+template <class... Names>
+auto made_of_parts(Names... names) {
+  return [=](const py::object& self) {
+    return py::make_tuple(self.get_type(), py::make_tuple(self.attr(names)...));
   };
 }
 

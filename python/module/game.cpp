@@ -30,11 +30,10 @@ struct GameHandle : WorldHandle {
     if (const auto ready = ReadyResponse::of(given, "GameWorld"))
       return [this, ready](const Event& event) { return interruptions->look(), (*ready)(event); };
     if (PyCallable_Check(given.ptr()) == 0 || PyType_Check(given.ptr()) != 0)
-      throw py::type_error(
-          "GameWorld: respond must be a Bouncing, a Roughness, a StepPotential, a dict of these or a "
-          "function "
-          "of an event, but is " +
-          py::repr(given).cast<std::string>());
+      refuse_type(
+          {"GameWorld", "respond"},
+          "must be a Bouncing, a Roughness, a StepPotential, a dict of these or a function of an event",
+          given);
     return [this](const Event& event) {
       return interruptions->call([&] { return answer_of(respond(event), is_plane()); });
     };
@@ -80,8 +79,7 @@ std::shared_ptr<GameHandle> clone_game(GameHandle& handle) {
 std::shared_ptr<GameHandle> restored_game(const py::object& snapshot, const py::object& respond,
                                           const py::object& pair_filter) {
   const std::vector<std::byte> bytes = bytes_from(snapshot, {"restore", "snapshot"});
-  std::shared_ptr<FilterTrouble> trouble;
-  if (!pair_filter.is_none()) trouble = std::make_shared<FilterTrouble>();
+  const auto trouble = trouble_of(pair_filter);
   auto handle = std::make_shared<GameHandle>(
       GameWorld::restore(bytes, {}, pair_filter_of(pair_filter, trouble)).value(), respond);
   handle->filter_trouble = trouble;
@@ -113,9 +111,7 @@ py::object events_of_game(const py::object& self, double until) {
 /// An array of shape (n, 3), which stays as it is when the game goes on, and cannot be taken for a way to
 /// move bodies.
 py::object array_of_all(std::span<const Vec3> vectors) {
-  NewArray made = new_doubles({vectors.size(), 3});
-  std::copy(vectors.begin(), vectors.end(), reinterpret_cast<Vec3*>(made.data<double>()));
-  py::object array = made.take();
+  py::object array = array_of(vectors);
   array.attr("flags").attr("writeable") = false;
   return array;
 }

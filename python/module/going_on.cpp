@@ -131,10 +131,10 @@ class Responding {
     if (py::isinstance<SceneHandle>(given)) {
       scene_ = &given.cast<const SceneHandle&>();
     } else if (!ready_ && (PyCallable_Check(given.ptr()) == 0 || PyType_Check(given.ptr()) != 0)) {
-      throw py::type_error(
-          "run: respond must be a Bouncing, a Roughness, a StepPotential, a dict of these, a Scene or a "
-          "function of an event, but is " +
-          py::repr(given).cast<std::string>());
+      refuse_type({"run", "respond"},
+                  "must be a Bouncing, a Roughness, a StepPotential, a dict of these, a Scene or a function "
+                  "of an event",
+                  given);
     }
   }
   explicit operator bool() const { return !given_.is_none(); }
@@ -205,11 +205,9 @@ class Progress {
     if (given.is_none() || given.is(py::bool_(false))) return;
     if (given.is(py::bool_(true))) {
       tell_ = bar_ = package_attribute("kinesphere.progress", "Bar")(start, until);
-    } else if (PyCallable_Check(given.ptr()) != 0) {
-      tell_ = py::reinterpret_borrow<py::object>(given);
     } else {
-      throw py::type_error("run: progress must be a bool or a function of a time, but is " +
-                           py::repr(given).cast<std::string>());
+      require_function(given, {"run", "progress"}, "must be a bool or a function of a time");
+      tell_ = given;
     }
   }
   Progress(const Progress&) = delete;
@@ -241,9 +239,7 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
   handle.require_moved_by_others("run");
   require_added(handle, motion, "run");
   Asked asked(motion, "run", handle.is_plane());
-  if (!at_stop.is_none() && PyCallable_Check(at_stop.ptr()) == 0)
-    throw py::type_error("run: at_stop must be a function of an event, but is " +
-                         py::repr(at_stop).cast<std::string>());
+  require_function(at_stop, {"run", "at_stop"}, "must be a function of an event");
   const Responding responding(respond, handle, !at_stop.is_none(), asked.interruptions());
   if (responding && asked.mover() == nullptr) {
     throw py::type_error(

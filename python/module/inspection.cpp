@@ -1,7 +1,6 @@
 // Inspection of a world, and its recordings.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -68,12 +67,10 @@ py::object unwrapped(WorldHandle& handle, const py::object& positions, const py:
   const std::vector<BodyId> ids = named_or_all(handle, bodies, "unwrapped");
   const std::vector<Vec3> given =
       vectors_of(positions, {"unwrapped", "positions"}, handle.is_plane(), ids.size());
-  NewArray array = new_doubles({ids.size(), 3});
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    const Vec3 place = unwrapped_one(handle.world, handle.world.body(ids[k]).value(), given[k]);
-    std::memcpy(array.data<double>() + 3 * k, &place, sizeof place);
-  }
-  return array.take();
+  std::vector<Vec3> places(ids.size());
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    places[k] = unwrapped_one(handle.world, handle.world.body(ids[k]).value(), given[k]);
+  return array_of(places);
 }
 
 py::object touching(WorldHandle& handle, const py::object& body) {
@@ -133,29 +130,45 @@ py::bytes stop_recording(WorldHandle& handle) {
   return bytes_of(handle.world.stop_recording().value());
 }
 
-/// All counters, which counters_of() reads.
+/// The counters beside those of the kinds of events.
+struct Counter {
+  const char* name;
+  std::uint64_t Counters::*member;
+  const char* documentation = "";
+};
+constexpr Counter all_counters[] = {
+    {"probes", &Counters::probes, "States asked for, one per body and call."},
+    {"window_ends", &Counters::window_ends},
+    {"starts", &Counters::starts},
+    {"restarts", &Counters::restarts},
+    {"pair_checks", &Counters::pair_checks},
+    {"wall_checks", &Counters::wall_checks},
+    {"searches", &Counters::searches},
+    {"candidates", &Counters::candidates},
+    {"hot_pairs", &Counters::hot_pairs},
+    {"certificates", &Counters::certificates},
+    {"zeno_steps", &Counters::zeno_steps},
+    {"repeated_contacts", &Counters::repeated_contacts},
+    {"jammed_contacts", &Counters::jammed_contacts},
+};
+
 py::tuple numbers_of(const Counters& counters) {
   py::list events;
   for (const std::uint64_t count : counters.events) events.append(count);
-  return py::make_tuple(events, counters.probes, counters.window_ends, counters.starts, counters.restarts,
-                        counters.pair_checks, counters.wall_checks, counters.searches, counters.candidates,
-                        counters.hot_pairs, counters.certificates, counters.zeno_steps,
-                        counters.repeated_contacts, counters.jammed_contacts);
+  py::list numbers;
+  numbers.append(events);
+  for (const Counter& one : all_counters) numbers.append(counters.*one.member);
+  return py::tuple(numbers);
 }
 
 Counters counters_of(const py::tuple& numbers) {
   Counters counters;
-  std::uint64_t* const members[] = {
-      &counters.probes,         &counters.window_ends,  &counters.starts,     &counters.restarts,
-      &counters.pair_checks,    &counters.wall_checks,  &counters.searches,   &counters.candidates,
-      &counters.hot_pairs,      &counters.certificates, &counters.zeno_steps, &counters.repeated_contacts,
-      &counters.jammed_contacts};
   const py::list events = numbers[0];
-  if (numbers.size() != 1 + std::size(members) || events.size() != counters.events.size())
+  if (numbers.size() != 1 + std::size(all_counters) || events.size() != counters.events.size())
     throw py::value_error("pickle: Counters must be of this version");
-  for (std::size_t k = 0; k < counters.events.size(); ++k)
-    counters.events[k] = events[k].cast<std::uint64_t>();
-  for (std::size_t k = 0; k < std::size(members); ++k) *members[k] = numbers[1 + k].cast<std::uint64_t>();
+  for (std::size_t k = 0; k < events.size(); ++k) counters.events[k] = events[k].cast<std::uint64_t>();
+  for (std::size_t k = 0; k < std::size(all_counters); ++k)
+    counters.*all_counters[k].member = numbers[1 + k].cast<std::uint64_t>();
   return counters;
 }
 
@@ -196,21 +209,9 @@ void bind_views(py::module_& module) {
       .def_readonly("sleeping", &BodyView::sleeping)
       .def("__repr__", repr_of_parts("position", "velocity", "radius", "acceleration_limit", "report_time"));
 
-  py::class_<Counters>(module, "Counters", "What a world has done so far; a copy.")
-      .def_readonly("probes", &Counters::probes, "States asked for, one per body and call.")
-      .def_readonly("window_ends", &Counters::window_ends)
-      .def_readonly("starts", &Counters::starts)
-      .def_readonly("restarts", &Counters::restarts)
-      .def_readonly("pair_checks", &Counters::pair_checks)
-      .def_readonly("wall_checks", &Counters::wall_checks)
-      .def_readonly("searches", &Counters::searches)
-      .def_readonly("candidates", &Counters::candidates)
-      .def_readonly("hot_pairs", &Counters::hot_pairs)
-      .def_readonly("certificates", &Counters::certificates)
-      .def_readonly("zeno_steps", &Counters::zeno_steps)
-      .def_readonly("repeated_contacts", &Counters::repeated_contacts)
-      .def_readonly("jammed_contacts", &Counters::jammed_contacts)
-      .def_property_readonly("steps", &Counters::steps)
+  py::class_<Counters> counted(module, "Counters", "What a world has done so far; a copy.");
+  for (const Counter& one : all_counters) counted.def_readonly(one.name, one.member, one.documentation);
+  counted.def_property_readonly("steps", &Counters::steps)
       .def(
           "count",
           [](const Counters& counters, int kind) {

@@ -25,9 +25,7 @@ class TrackPoll {
  public:
   TrackPoll(const py::object& given, std::string_view call, bool plane)
       : call_(call), plane_(plane), given_(given) {
-    if (!given.is_none() && PyCallable_Check(given.ptr()) == 0)
-      throw py::type_error(call_ + ": poll must be a function of (ids, time), but is " +
-                           py::repr(given).cast<std::string>());
+    require_function(given, {call, "poll"}, "must be a function of (ids, time)");
   }
 
   Result<std::optional<MonitorEvent>> advance(Monitor& monitor, double until) {

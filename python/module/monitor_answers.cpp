@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <string>
 
 #include "errors.hpp"
@@ -18,9 +17,7 @@ namespace {
 /// Returns a structured array with a row for each item.
 template <class Record, class Item>
 py::object rows_as_table(std::span<const Field> fields, const std::vector<Item>& items) {
-  NewArray table({items.size()}, row_type(fields, sizeof(Record)), sizeof(Record));
-  for (std::size_t k = 0; k < items.size(); ++k) table.data<Record>()[k] = record_of(items[k]);
-  return table.take();
+  return table_of_records<Record>(fields, items.size(), [&](std::size_t k) { return record_of(items[k]); });
 }
 
 py::object answer_pairs(const MonitorHandle& handle, const TrackIds& first, const TrackIds& second,
@@ -39,11 +36,8 @@ py::object answer_pairs(const MonitorHandle& handle, const TrackIds& first, cons
       record.second = second.ids[row];
     }
   }
-  NewArray table({records.size()}, row_type(pair_answer_fields, sizeof(PairAnswerRecord)),
-                 sizeof(PairAnswerRecord));
-  if (!records.empty())
-    std::memcpy(table.data<PairAnswerRecord>(), records.data(), records.size() * sizeof(PairAnswerRecord));
-  return table.take();
+  return table_of_records<PairAnswerRecord>(pair_answer_fields, records.size(),
+                                            [&](std::size_t k) { return records[k]; });
 }
 
 py::object answer_of_monitor(MonitorHandle& handle, const py::object& first, const py::object& second,

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -60,7 +59,7 @@ std::vector<std::uint32_t> numbers_of(const Motion& motion, const py::object& na
 }
 
 py::tuple states_at(MotionHandle& handle, const py::object& named, double time, std::string_view call) {
-  const auto turn = handle.in_use.take_alone(call, "motion");
+  const auto turn = handle.take(call);
   const std::vector<std::uint32_t> numbers = numbers_of(*handle.motion, named, call);
   std::vector<State> states(numbers.size());
   for (std::size_t k = 0; k < numbers.size(); ++k) states[k] = handle.motion->state(numbers[k], time);
@@ -103,7 +102,7 @@ std::vector<Vec3> vectors_for(const Ids& named, const py::object& vectors, const
 }
 
 void set_velocities(MotionHandle& handle, const py::object& numbers, double t, const py::object& velocities) {
-  const auto turn = handle.in_use.take_alone("set_velocity", "motion");
+  const auto turn = handle.take("set_velocity");
   const Ids named = ids_of(numbers, {"set_velocity", "numbers"});
   const std::vector<Vec3> each = vectors_for(named, velocities, {"set_velocity", "velocities"});
   change_bodies(handle, named, [&](Motion& motion, std::uint32_t number, std::size_t k) {
@@ -113,7 +112,7 @@ void set_velocities(MotionHandle& handle, const py::object& numbers, double t, c
 
 void teleport_bodies(MotionHandle& handle, const py::object& numbers, double t, const py::object& positions,
                      const py::object& velocities) {
-  const auto turn = handle.in_use.take_alone("teleport", "motion");
+  const auto turn = handle.take("teleport");
   const Ids named = ids_of(numbers, {"teleport", "numbers"});
   const std::vector<Vec3> places = vectors_for(named, positions, {"teleport", "positions"});
   const std::vector<Vec3> speeds = vectors_for(named, velocities, {"teleport", "velocities"});
@@ -124,25 +123,25 @@ void teleport_bodies(MotionHandle& handle, const py::object& numbers, double t, 
 
 /// Returns the arguments of World.add().
 py::dict definitions_at(MotionHandle& handle, double time, const py::object& named) {
-  const auto turn = handle.in_use.take_alone("definitions", "motion");
+  const auto turn = handle.take("definitions");
   const std::vector<std::uint32_t> numbers = numbers_of(*handle.motion, named, "definitions");
   std::vector<State> states;
   std::vector<double> limits, position_errors, velocity_errors;
-  NewArray plans = new_doubles({numbers.size(), 3});
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const BodyDefinition body = handle.motion->definition(numbers[k], time);
+  std::vector<Vec3> plans;
+  for (const std::uint32_t number : numbers) {
+    const BodyDefinition body = handle.motion->definition(number, time);
     states.push_back({body.position, body.velocity});
     limits.push_back(body.acceleration_limit);
     position_errors.push_back(body.position_error);
     velocity_errors.push_back(body.velocity_error);
-    std::memcpy(plans.data<double>() + 3 * k, &body.planned_acceleration, sizeof(Vec3));
+    plans.push_back(body.planned_acceleration);
   }
   const py::tuple arrays = arrays_of(states);
   py::dict definitions;
   definitions["positions"] = arrays[0];
   definitions["velocities"] = arrays[1];
   definitions["acceleration_limits"] = array_of(limits);
-  definitions["planned_accelerations"] = plans.take();
+  definitions["planned_accelerations"] = array_of(plans);
   definitions["position_errors"] = array_of(position_errors);
   definitions["velocity_errors"] = array_of(velocity_errors);
   return definitions;
@@ -217,7 +216,7 @@ py::object object_of_kind(std::unique_ptr<Motion> motion) {
 }
 
 py::object copy_of(MotionHandle& handle) {
-  const auto turn = handle.in_use.take_alone("copy", "motion");
+  const auto turn = handle.take("copy");
   return object_of(handle.motion->clone());
 }
 
@@ -264,14 +263,14 @@ World.set_velocity().)")
       .def(
           "remove",
           [](MotionHandle& handle, long long number) {
-            const auto turn = handle.in_use.take_alone("remove", "motion");
+            const auto turn = handle.take("remove");
             require(handle.motion->remove(number_in_motion(number)));
           },
           py::arg("number"), "The next body that is added takes its number.")
       .def(
           "origin",
           [](MotionHandle& handle, long long number) {
-            const auto turn = handle.in_use.take_alone("origin", "motion");
+            const auto turn = handle.take("origin");
             const MotionOrigin from = handle.motion->origin(number_in_motion(number));
             return py::make_tuple(from.time, array_of(from.state.position), array_of(from.state.velocity));
           },
@@ -279,7 +278,7 @@ World.set_velocity().)")
       .def(
           "write_body",
           [](MotionHandle& handle, long long number) {
-            const auto turn = handle.in_use.take_alone("write_body", "motion");
+            const auto turn = handle.take("write_body");
             std::vector<std::byte> bytes;
             require(handle.motion->write_body(number_in_motion(number), bytes));
             return bytes_of(bytes);
@@ -290,7 +289,7 @@ World.set_velocity().)")
       .def(
           "read_body",
           [](MotionHandle& handle, const py::object& written) {
-            const auto turn = handle.in_use.take_alone("read_body", "motion");
+            const auto turn = handle.take("read_body");
             const std::vector<std::byte> bytes = bytes_from(written, {"read_body", "bytes"});
             std::span<const std::byte> rest = bytes;
             return handle.motion->read_body(rest).value();
@@ -304,7 +303,7 @@ World.set_velocity().)")
       .def("__deepcopy__", [](MotionHandle& handle, const py::object&) { return copy_of(handle); })
       .def("_common_arguments",
            [](MotionHandle& handle) {
-             const auto turn = handle.in_use.take_alone("pickle", "motion");
+             const auto turn = handle.take("pickle");
              return common_arguments_of<Ballistic, RandomForces, VelocityField, SteeredMotion, RecordedTracks,
                                         FrameMotion>(*handle.motion);
            })
@@ -328,7 +327,7 @@ void bind_add_with_limit(Class& kind, const Limit& limit = Limit("acceleration_l
       "add",
       [](Handle& handle, double t, const py::object& position, const py::object& velocity,
          double acceleration_limit) {
-        const auto turn = handle.in_use.take_alone("add", "motion");
+        const auto turn = handle.take("add");
         return handle.get()
             .add(t,
                  {vector_of(position, {"add", "position"}, any_dimension),
@@ -358,7 +357,7 @@ positions and velocities have shape (n, 3) or (n, 2); without velocities all are
       .def(
           "add",
           [](HandleOf<Ballistic>& handle, double t, const py::object& position, const py::object& velocity) {
-            const auto turn = handle.in_use.take_alone("add", "motion");
+            const auto turn = handle.take("add");
             return handle.get()
                 .add(t, {vector_of(position, {"add", "position"}, any_dimension),
                          vector_of(velocity, {"add", "velocity"}, any_dimension)})
@@ -401,7 +400,7 @@ number, or one of each body. The draw depends on seed, body and interval alone.)
       .def(
           "steer",
           [](HandleOf<SteeredMotion>& handle, long long number, double t, const py::object& acceleration) {
-            const auto turn = handle.in_use.take_alone("steer", "motion");
+            const auto turn = handle.take("steer");
             require(handle.get().steer(number_in_motion(number), t,
                                        vector_of(acceleration, {"steer", "acceleration"}, any_dimension)));
           },
@@ -420,10 +419,7 @@ number, or one of each body. The draw depends on seed, body and interval alone.)
       .def_readonly("box", &Circulation::box)
       .def_readonly("speed", &Circulation::speed)
       .def("__repr__", repr_of_parts("box", "speed"))
-      .def("__reduce__",
-           [](const py::object& self) {
-             return py::make_tuple(self.get_type(), py::make_tuple(self.attr("box"), self.attr("speed")));
-           })
+      .def("__reduce__", made_of_parts("box", "speed"))
       .def(
           "__call__",
           [](const Circulation& field, const py::object& position) {
@@ -493,7 +489,7 @@ error).)")
       .def(
           "span",
           [](HandleOf<RecordedTracks>& handle, std::uint32_t body) {
-            const auto turn = handle.in_use.take_alone("span", "motion");
+            const auto turn = handle.take("span");
             const auto& motion = static_cast<const RecordedTracks&>(*handle.motion);
             return std::pair(motion.first_time(body), motion.last_time(body));
           },
@@ -579,14 +575,7 @@ world.time must be latest_time. For other worlds: BodyMap.push().)")
           [](const HandleOf<FrameMotion>& handle) { return handle.get().has_equal_frames(); },
           "True while each frame has come interval after the one before, with or without a time of its own.")
       .def(
-          "latest",
-          [](const HandleOf<FrameMotion>& handle) {
-            const std::vector<Vec3>& latest = handle.get().latest();
-            NewArray array = new_doubles({latest.size(), 3});
-            if (!latest.empty())
-              std::memcpy(array.data<double>(), latest.data(), latest.size() * sizeof(Vec3));
-            return array.take();
-          },
+          "latest", [](const HandleOf<FrameMotion>& handle) { return array_of(handle.get().latest()); },
           "Where the bodies are at latest_time, changes included: shape (n, 3), NaN for removed ones.")
       .def_property_readonly("previous_time",
                              [](const HandleOf<FrameMotion>& handle) { return handle.get().previous_time(); })
@@ -617,7 +606,7 @@ acceleration limit that would have allowed it, and velocity. The world has been 
       "add",
       [](HandleOf<FrameMotion>& handle, double t, const py::object& position, const py::object& velocity,
          double acceleration_limit, const py::object& orientation) {
-        const auto turn = handle.in_use.take_alone("add", "motion");
+        const auto turn = handle.take("add");
         return handle.get()
             .add(t,
                  {vector_of(position, {"add", "position"}, any_dimension),

@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct MotionHandle {
   explicit MotionHandle(std::unique_ptr<Motion> held) : motion(std::move(held)) {}
   std::unique_ptr<Motion> motion;
   InUse in_use{};
+
+  InUse::Use take(std::string_view call) { return in_use.take_alone(call, "motion"); }
 };
 
 /// Each kind of motion is bound as a class derived from this, so that its functions find the type.

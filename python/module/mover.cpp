@@ -25,9 +25,8 @@ constexpr bool plane_or_space = true;
 std::shared_ptr<MoverHandle> create_mover(const py::object& function, const py::object& positions,
                                           const py::object& velocities, double start_time) {
   if (PyCallable_Check(function.ptr()) == 0)
-    throw py::type_error(
-        "MotionSource: function must be a function of (ids, t, since, positions, velocities), but is " +
-        py::repr(function).cast<std::string>());
+    refuse_type({"MotionSource", "function"}, "must be a function of (ids, t, since, positions, velocities)",
+                function);
   auto handle = std::make_shared<MoverHandle>(MoverHandle{function, {}});
   for (const State& state : states_of(positions, velocities, "MotionSource", plane_or_space))
     handle->departures.push_back({start_time, state});

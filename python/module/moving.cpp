@@ -59,8 +59,7 @@ Asked::Asked(const py::object& given, std::string_view call, bool plane)
   } else if (py::isinstance<MoverHandle>(given)) {
     mover_ = std::make_unique<FunctionMover>(given.cast<MoverHandle&>(), interruptions_, call_, plane_);
   } else if (PyCallable_Check(given.ptr()) == 0 || PyType_Check(given.ptr()) != 0) {
-    throw py::type_error(call_ + ": probe must be a motion or a function of (ids, t), but is " +
-                         py::repr(given).cast<std::string>());
+    refuse_type({call_, "probe"}, "must be a motion or a function of (ids, t)", given);
   }
   take_turns();
 }
@@ -308,10 +307,7 @@ squared radius, 0.4 for solid spheres, 0.5 for discs. For one contact: bounce_ri
       .def_readonly("friction", &Roughness::friction)
       .def_readonly("inertia", &Roughness::inertia)
       .def("__repr__", repr_of_parts("restitution", "tangential_restitution", "friction", "inertia"))
-      .def("__reduce__", [](const py::object& self) {
-        const auto& [restitution, tangential, friction, inertia] = self.cast<const Roughness&>();
-        return py::make_tuple(self.get_type(), py::make_tuple(restitution, tangential, friction, inertia));
-      });
+      .def("__reduce__", made_of_parts("restitution", "tangential_restitution", "friction", "inertia"));
   py::class_<StepPotential>(
       module, "StepPotential",
       R"(A ready-made response for World.run(): pairs whose potential energy changes in steps with their gap.

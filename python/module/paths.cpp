@@ -104,13 +104,6 @@ std::span<const Number> span_of(const py::buffer_info& array) {
   return {static_cast<const Number*>(array.ptr), static_cast<std::size_t>(array.size)};
 }
 
-template <class Record, class RecordOf>
-py::object table_of_records(std::span<const Field> fields, std::size_t count, RecordOf record) {
-  NewArray table({count}, row_type(fields, sizeof(Record)), sizeof(Record));
-  for (std::size_t k = 0; k < count; ++k) table.data<Record>()[k] = record(k);
-  return table.take();
-}
-
 /// Returns the approaches, the minima and the step. The arrays must be contiguous: bodies of uint32, the
 /// others of float64.
 py::tuple path_approaches(const py::buffer& bodies, const py::buffer& begins, const py::buffer& ends,

@@ -1,7 +1,6 @@
 // Places of spheres: kinesphere.place_spheres() and radial_distribution().
 #include "kinesphere/placement.hpp"
 
-#include <algorithm>
 #include <cstring>
 
 #include "errors.hpp"
@@ -53,9 +52,7 @@ py::object distribution(const py::object& given, const py::object& given_box, do
         return radial_distribution(centres, *box, range, bins, dimensions);
       }()
           .value();
-  NewArray array = new_doubles({found.size()});
-  std::copy(found.begin(), found.end(), array.data<double>());
-  return array.take();
+  return array_of(found);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "rigid_bodies.hpp"
 
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -136,9 +135,7 @@ void read_rotations(const py::object& answer, std::span<Rotation> rotations) {
 
 void set_rotation_probe(WorldHandle& handle, const py::object& function) {
   const auto turn = handle.take("set_rotation_probe");
-  if (!function.is_none() && PyCallable_Check(function.ptr()) == 0)
-    throw py::type_error("set_rotation_probe: function must be a function of (ids, t), but is " +
-                         py::repr(function).cast<std::string>());
+  require_function(function, {"set_rotation_probe", "function"}, "must be a function of (ids, t)");
   RotationProbe probe;
   if (!function.is_none()) {
     // A world with a rotation probe works with one thread, so nothing but the probe can throw meanwhile.
@@ -203,10 +200,7 @@ py::tuple arrays_of(std::span<const Rotation> rotations) {
     orientations.push_back(orientation);
     spins.push_back(spin);
   }
-  NewArray angular_velocities = new_doubles({spins.size(), 3});
-  if (!spins.empty())
-    std::memcpy(angular_velocities.data<double>(), spins.data(), spins.size() * sizeof(Vec3));
-  return py::make_tuple(array_of(orientations), angular_velocities.take());
+  return py::make_tuple(array_of(orientations), array_of(spins));
 }
 
 RigidBody RigidArguments::read(const BodyDefinition& body) const {

@@ -47,21 +47,9 @@ py::object points_of(const Hull& hull) {
   std::vector<Vec3> points{a};
   if (a != b || !more.empty()) points.push_back(b);
   points.insert(points.end(), more.begin(), more.end());
-  NewArray array = new_doubles({points.size(), 3});
-  double* number = array.data<double>();
-  for (const Vec3& point : points)
-    for (int axis = 0; axis < 3; ++axis) *number++ = point[axis];
-  return array.take();
+  return array_of(points);
 }
 
-/// Returns an array of shape (n, 3).
-py::object vertices_of(const Mesh& mesh) {
-  NewArray array = new_doubles({mesh.vertices().size(), 3});
-  double* number = array.data<double>();
-  for (const Vec3& vertex : mesh.vertices())
-    for (int axis = 0; axis < 3; ++axis) *number++ = vertex[axis];
-  return array.take();
-}
 /// Returns an array of shape (m, 3).
 py::object corners_of(const Mesh& mesh) {
   NewArray array = new_whole_numbers(3 * mesh.size());
@@ -71,25 +59,22 @@ py::object corners_of(const Mesh& mesh) {
   return array.take().attr("reshape")(mesh.size(), 3);
 }
 
-template <class Class>
-void bind_equality(Class& shape, const char* name) {
+/// Binds what shapes have in common. Their classes make them of parts of these names.
+template <class Class, class... Names>
+void bind_parts(Class& shape, Names... names) {
   using Kind = typename Class::type;
   shape.def("__eq__", [](const Kind& a, const py::object& b) {
     return py::isinstance<Kind>(b) && a == b.cast<const Kind&>();
   });
-  shape.def("__repr__", [name](const py::object& self) {
-    std::string text = std::string(name) + "(";
-    for (const py::handle part : self.attr("_parts")) {
+  shape.def("__reduce__", made_of_parts(names...));
+  shape.def("__repr__", [=](const py::object& self) {
+    std::string text = self.get_type().attr("__name__").cast<std::string>() + "(";
+    for (const char* const part : {names...}) {
       const py::object of = self.attr(part);
       if (text.back() != '(') text += ", ";
       text += py::repr(py::hasattr(of, "tolist") ? py::tuple(of.attr("tolist")()) : of).cast<std::string>();
     }
     return text + ")";
-  });
-  shape.def("__reduce__", [](const py::object& self) {
-    py::list parts;
-    for (const py::handle part : self.attr("_parts")) parts.append(self.attr(part));
-    return py::make_tuple(self.attr("__class__"), py::tuple(parts));
   });
 }
 
@@ -132,9 +117,7 @@ Shape shape_of(const py::object& given, const Argument& argument) {
   if (py::isinstance<Box>(given)) return given.cast<Box>();
   if (py::isinstance<Triangle>(given)) return given.cast<Triangle>();
   if (py::isinstance<Mesh>(given)) return given.cast<Mesh>();
-  throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) +
-                       " must be a Ball, Box, HalfSpace, Triangle or Mesh, but is " +
-                       py::repr(given).cast<std::string>());
+  refuse_type(argument, "must be a Ball, Box, HalfSpace, Triangle or Mesh", given);
 }
 
 py::object object_of(const Shape& shape) {
@@ -151,8 +134,7 @@ void bind_shapes(py::module_& module) {
           py::arg("lower"), py::arg("upper"))
       .def_property_readonly("lower", [](const Box& of) { return array_of(of.lower); })
       .def_property_readonly("upper", [](const Box& of) { return array_of(of.upper); });
-  box.attr("_parts") = py::make_tuple("lower", "upper");
-  bind_equality(box, "Box");
+  bind_parts(box, "lower", "upper");
 
   py::class_<Ball> ball(module, "Ball", "A ball that never moves; radius >= 0 (length).");
   ball.def(py::init([](const py::object& centre, double radius) {
@@ -161,8 +143,7 @@ void bind_shapes(py::module_& module) {
            py::arg("centre"), py::arg("radius"))
       .def_property_readonly("centre", [](const Ball& of) { return array_of(of.centre); })
       .def_readonly("radius", &Ball::radius);
-  ball.attr("_parts") = py::make_tuple("centre", "radius");
-  bind_equality(ball, "Ball");
+  bind_parts(ball, "centre", "radius");
 
   py::class_<HalfSpace> half_space(
       module, "HalfSpace", "Bodies may be where dot(normal, p) >= offset; the rest of space is solid.");
@@ -173,8 +154,7 @@ void bind_shapes(py::module_& module) {
            py::arg("normal"), py::arg("offset"))
       .def_property_readonly("normal", [](const HalfSpace& of) { return array_of(of.normal); })
       .def_readonly("offset", &HalfSpace::offset);
-  half_space.attr("_parts") = py::make_tuple("normal", "offset");
-  bind_equality(half_space, "HalfSpace");
+  bind_parts(half_space, "normal", "offset");
 
   py::class_<Triangle> triangle(module, "Triangle", "Two-sided and without thickness.");
   triangle
@@ -186,8 +166,7 @@ void bind_shapes(py::module_& module) {
       .def_property_readonly("a", [](const Triangle& of) { return array_of(of.a); })
       .def_property_readonly("b", [](const Triangle& of) { return array_of(of.b); })
       .def_property_readonly("c", [](const Triangle& of) { return array_of(of.c); });
-  triangle.attr("_parts") = py::make_tuple("a", "b", "c");
-  bind_equality(triangle, "Triangle");
+  bind_parts(triangle, "a", "b", "c");
 
   py::class_<Mesh> mesh(
       module, "Mesh",
@@ -211,7 +190,7 @@ void bind_shapes(py::module_& module) {
           "only meshes that they take. Repeat the first point at the end to close it. Events name the "
           "triangle, "
           "half of which is the segment.")
-      .def_property_readonly("vertices", vertices_of)
+      .def_property_readonly("vertices", [](const Mesh& of) { return array_of(of.vertices()); })
       .def_property_readonly("corners", corners_of)
       .def("__len__", [](const Mesh& of) { return of.size(); })
       .def("__eq__",
@@ -239,8 +218,7 @@ void bind_shapes(py::module_& module) {
       .def_property_readonly("a", [](const RigidPart& of) { return array_of(of.a); })
       .def_property_readonly("b", [](const RigidPart& of) { return array_of(of.b); })
       .def_readonly("radius", &RigidPart::radius);
-  capsule.attr("_parts") = py::make_tuple("a", "b", "radius");
-  bind_equality(capsule, "Capsule");
+  bind_parts(capsule, "a", "b", "radius");
 
   py::class_<Hull> hull(
       module, "Hull",
@@ -259,8 +237,7 @@ void bind_shapes(py::module_& module) {
           "A box between two corners; a rectangle if they have two numbers.")
       .def_property_readonly("points", [](const Hull& of) { return points_of(of); })
       .def_property_readonly("radius", [](const Hull& of) { return of.part.radius; });
-  hull.attr("_parts") = py::make_tuple("points", "radius");
-  bind_equality(hull, "Hull");
+  bind_parts(hull, "points", "radius");
 }
 
 }  // namespace kinesphere::python

@@ -114,27 +114,26 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
   const auto time_or_nan = [](double seconds, double at) {
     return std::isinf(seconds) ? std::numeric_limits<double>::quiet_NaN() : at;
   };
-  NewArray table({found.size()}, row_type(approach_fields, sizeof(ApproachRecord)), sizeof(ApproachRecord));
-  for (std::size_t k = 0; k < found.size(); ++k) {
+  const auto record = [&](std::size_t k) {
     const Approach& one = found[k];
-    table.data<ApproachRecord>()[k] = {one.first,
-                                       one.second,
-                                       one.begin,
-                                       one.end,
-                                       one.closest.time,
-                                       one.closest.distance,
-                                       one.closest.relative_speed,
-                                       one.closest.first,
-                                       one.closest.second,
-                                       one.begins_with_track,
-                                       one.ends_with_track,
-                                       {},
-                                       least[k].seconds,
-                                       time_or_nan(least[k].seconds, least[k].at),
-                                       entries[k].seconds,
-                                       time_or_nan(entries[k].seconds, entries[k].at)};
-  }
-  return py::make_tuple(table.take(), probes);
+    return ApproachRecord{one.first,
+                          one.second,
+                          one.begin,
+                          one.end,
+                          one.closest.time,
+                          one.closest.distance,
+                          one.closest.relative_speed,
+                          one.closest.first,
+                          one.closest.second,
+                          one.begins_with_track,
+                          one.ends_with_track,
+                          {},
+                          least[k].seconds,
+                          time_or_nan(least[k].seconds, least[k].at),
+                          entries[k].seconds,
+                          time_or_nan(entries[k].seconds, entries[k].at)};
+  };
+  return py::make_tuple(table_of_records<ApproachRecord>(approach_fields, found.size(), record), probes);
 }
 
 }  // namespace

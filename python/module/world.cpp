@@ -14,11 +14,9 @@ namespace {
 std::optional<Filter> filter_of(const py::object& given, const Argument& argument) {
   if (given.is_none()) return std::nullopt;
   const auto wrong = [&] {
-    return py::type_error(
-        "World: wall_filter must be a dict of whole numbers, such as {\"category\": 2}, but is " +
-        py::repr(given).cast<std::string>());
+    refuse_type(argument, "must be a dict of whole numbers, such as {\"category\": 2}", given);
   };
-  if (!py::isinstance<py::dict>(given)) throw wrong();
+  if (!py::isinstance<py::dict>(given)) wrong();
   Filter filter;
   for (const auto& [key, value] : py::reinterpret_borrow<py::dict>(given)) try {
       const auto name = key.cast<std::string>();
@@ -31,7 +29,7 @@ std::optional<Filter> filter_of(const py::object& given, const Argument& argumen
       else
         refuse(argument, "must have no other keys than category, mask and group", "has " + name);
     } catch (const py::cast_error&) {
-      throw wrong();
+      wrong();
     }
   return filter;
 }
@@ -72,19 +70,19 @@ py::bytes save(WorldHandle& handle) {
 }
 
 Axes axes_of(const py::object& given, const Argument& argument, bool plane) {
-  const auto found = [&] { return "is " + py::repr(given).cast<std::string>(); };
   if (py::isinstance<py::bool_>(given)) {
     const bool all = given.cast<bool>();
     return {all, all, all && !plane};
   }
   if (!py::isinstance<py::str>(given))
-    throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) +
-                         " must be a bool or a text such as \"xy\", but " + found());
+    refuse_type(argument, "must be a bool or a text such as \"xy\"", given);
   const auto text = given.cast<std::string>();
   if (text.find_first_not_of("xyz") != std::string::npos)
     refuse(argument, "must be a text of the letters x, y and z", "is \"" + text + "\"");
   const auto has = [&](char axis) { return text.find(axis) != std::string::npos; };
-  if (plane && has('z')) refuse(argument, "must be of x and y in two dimensions, such as \"xy\"", found());
+  if (plane && has('z'))
+    refuse(argument, "must be of x and y in two dimensions, such as \"xy\"",
+           "is " + py::repr(given).cast<std::string>());
   return {has('x'), has('y'), has('z')};
 }
 
@@ -130,6 +128,10 @@ std::shared_ptr<py::object> kept_by_engine(const py::object& function) {
           }};
 }
 
+std::shared_ptr<FilterTrouble> trouble_of(const py::object& function) {
+  return function.is_none() ? nullptr : std::make_shared<FilterTrouble>();
+}
+
 PairFilter pair_filter_of(const py::object& function, const std::shared_ptr<FilterTrouble>& trouble) {
   if (function.is_none()) return {};
   return [shared = kept_by_engine(function), trouble](BodyId first, BodyId second) {
@@ -146,8 +148,7 @@ PairFilter pair_filter_of(const py::object& function, const std::shared_ptr<Filt
 
 std::shared_ptr<WorldHandle> restored(const py::object& snapshot, const py::object& pair_filter) {
   const std::vector<std::byte> bytes = bytes_from(snapshot, {"restore", "snapshot"});
-  std::shared_ptr<FilterTrouble> trouble;
-  if (!pair_filter.is_none()) trouble = std::make_shared<FilterTrouble>();
+  const auto trouble = trouble_of(pair_filter);
   auto handle =
       std::make_shared<WorldHandle>(World::restore(bytes, pair_filter_of(pair_filter, trouble)).value());
   handle->filter_trouble = trouble;

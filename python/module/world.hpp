@@ -137,6 +137,8 @@ py::bytes save(WorldHandle& handle);
 /// Returns a Python function for callbacks that the engine keeps: copies of a world share it, and the last of
 /// them may be destroyed without the GIL.
 std::shared_ptr<py::object> kept_by_engine(const py::object& function);
+/// Returns where a pair filter of this function keeps its exception; nothing for None.
+std::shared_ptr<FilterTrouble> trouble_of(const py::object& function);
 /// Returns a filter that calls a Python function; empty for None.
 PairFilter pair_filter_of(const py::object& function, const std::shared_ptr<FilterTrouble>& trouble);
 
