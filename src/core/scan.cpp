@@ -70,13 +70,12 @@ bool Core::look_out_for(std::uint32_t number, std::uint32_t other, double apart,
                         std::span<const std::uint32_t> linked, Counters& work, Host& host) {
   Ball& ball = balls_[number];
   double until = rounding::sum_down(balls_.time(), apart);
-  bool are_near = !(until > balls_.time());
-  if (are_near && std::binary_search(linked.begin(), linked.end(), other)) return true;
-  if (are_near) until = apart_until(number, other, ball.second - balls_.time());
-  are_near = !(until > balls_.time());
-  if (are_near) {
-    until = std::min(host.unchanged_until(number, other), holds_until(number, other));
+  if (!(until > balls_.time())) {
+    if (std::binary_search(linked.begin(), linked.end(), other)) return true;
+    until = apart_until(number, other, ball.second - balls_.time());
   }
+  const bool are_near = !(until > balls_.time());
+  if (are_near) until = std::min(host.unchanged_until(number, other), holds_until(number, other));
   ++work.certificates;
   if (until < ball.own) ++work.hot_pairs;
   consider(ball, other, until);

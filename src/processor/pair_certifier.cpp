@@ -61,11 +61,8 @@ double PairCertifier::within_in_flight_until(std::uint32_t a, std::uint32_t b, c
   const Bound &one = bodies()[a].bound, &other = bodies()[b].bound;
   const State first{one.centre_at(time_), one.velocity_at(time_)};
   State second{other.centre_at(time_), other.velocity_at(time_)};
-  if (const Space& space = bodies().space(); space.repeats()) {
-    const Vec3 shift = shift_to_meet(bodies(), a, b, time_);
-    second.position += shift;
-    if (space.slides()) second.velocity += space.velocity_of(shift);
-  }
+  if (const Space& space = bodies().space(); space.repeats())
+    space.move(second, shift_to_meet(bodies(), a, b, time_));
   const StraightPair pair(second.position - first.position, second.velocity - first.velocity,
                           one.radius + other.radius);
   const double margin = rounding_margin(bodies().definition()), tolerance = contacts().rule().tolerance();
