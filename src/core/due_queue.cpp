@@ -124,7 +124,9 @@ void DueQueue::open_next(std::span<const Ball> balls, double until) {
   }
   sort_present();
   if ((bucket_ & (heads_.size() / 2 - 1)) == 0 || stored_ == 0) take_far(balls, until);
-  if (bucket_ - adapted_ >= 256 || static_cast<double>(entered_) >= 256.0 * most_in_bucket) adapt(balls);
+  constexpr std::uint64_t buckets = 256;
+  const bool have_many = static_cast<double>(entered_) >= static_cast<double>(buckets) * most_in_bucket;
+  if (bucket_ - adapted_ >= buckets || have_many) adapt(balls);
 }
 
 /// Puts the balls that are due within the ring by now into their buckets. If the ring is empty, goes on to

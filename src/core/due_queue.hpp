@@ -3,7 +3,7 @@
 //
 // A bucket holds numbers of balls only, since a ball knows when it is due. When its bucket is opened, a ball
 // that is due later by now goes on to the bucket in which it is due, so a ball that is put off again and
-// again costs nothing until then. The width of the buckets follows how many balls are due in one. Neither the
+// again costs nothing until then. The width of the buckets follows how many entries one has. Neither the
 // width nor the order of insertion influences the order in which balls are due: by time, and by number at one
 // time.
 #pragma once
